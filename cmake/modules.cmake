@@ -1,0 +1,17 @@
+# The house of harness/, from the ground up: a folder may include what its USES name, and what those use.
+crossray_module(base PACKAGES glm::glm)
+crossray_module(scene USES base PACKAGES OpenEXR::OpenEXR nlohmann_json::nlohmann_json)
+crossray_module(compile USES base
+                PACKAGES glslang SPIRV glslang-default-resource-limits SPIRV-Tools-opt SPIRV-Tools spirv-cross-c-shared)
+crossray_module(backend USES base)
+crossray_module(backend/cpu USES base)
+crossray_module(backend/vulkan USES base PACKAGES Vulkan::Vulkan)
+crossray_module(backend/gl USES base PACKAGES glad ${CMAKE_DL_LIBS})
+crossray_module(judge USES base)
+crossray_module(case USES scene judge PACKAGES tomlplusplus::tomlplusplus)
+crossray_module(expect USES case)
+crossray_module(pass USES compile backend expect)
+crossray_module(run USES pass backend/cpu backend/vulkan backend/gl
+                PACKAGES nlohmann_json::nlohmann_json pugixml::pugixml)
+crossray_module(bench USES run)
+crossray_module(cli USES run PACKAGES CLI11::CLI11 PNG::PNG)

@@ -1,0 +1,141 @@
+// A case: one TOML file, or one of the named sub-cases that its parameter lists expand into. docs/case-format.md documents each
+// key; a test holds that document and the schema of this folder against each other.
+#pragma once
+
+#include "harness/base/error.h"
+#include "harness/base/outputs.h"
+#include "harness/judge/judge.h"
+#include "harness/scene/gbuffer.h"
+#include "harness/scene/truth.h"
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace crossray {
+
+enum class RefractionModel { kNone = 0, kSphere = 1, kBox = 2, kThin = 3 };
+enum class ProjectionModel { kNone = 0, kProxyInfinite = 1, kProxyBox = 2, kProxySphere = 3, kHiz = 4 };
+// The text's linear ramp, Unity 2018's smoothed ramp, today's smoothed ramp of half the width (domain, section 2).
+enum class ScreenWeightForm { kLinear = 0, kSmooth2018 = 1, kSmoothToday = 2 };
+
+struct Material {
+    RefractionModel refractionModel = RefractionModel::kNone;
+    double ior = 1.5;
+    double thickness = 1.0;           // metres
+    double thicknessMultiplier = 1.0;
+    double roughness = 0.0;           // perceptual
+};
+
+struct ProxyVolume {
+    glm::dvec3 center{0.0};
+    glm::dmat3 worldFromProxy{1.0};   // rotation, no scale
+    glm::dvec3 halfExtents{1.0};      // box
+    double radius = 1.0;              // sphere
+};
+
+struct HizSettings { // Unity 2018's defaults
+    int minLevel = 2;
+    int maxLevel = 6;
+    int maxIterations = 32;
+    double depthBias = 1.0; // "depth success bias", the thickness of what the depth buffer shows, metres
+};
+
+struct Projection {
+    ProjectionModel model = ProjectionModel::kNone; // none: only the ray is computed
+    ProxyVolume proxy;
+    HizSettings hiz;
+    double screenWeightDistance = 0.1; // NDC in [0,1]
+    ScreenWeightForm screenWeightForm = ScreenWeightForm::kSmooth2018;
+};
+
+// A G-buffer of another renderer.
+struct RecordedGBuffer {
+    std::filesystem::path file;       // resolved
+    std::filesystem::path cameraFile; // resolved
+    std::filesystem::path truthFile;  // resolved; empty when there is none
+    ChannelMap channels;              // blenderChannelMap() unless given
+    int tracedObject = 0;             // object index of the pixels that trace
+};
+
+// Exactly one source.
+struct AnalyticSource { std::string function; };            // a closed form of harness/expect/, by name
+struct TruthSource { std::string quantity; };               // "ray_direction", "hit_depth", "hit", ...
+struct ConstantSource { std::vector<double> value; };       // every compared pixel
+struct GoldenSource { std::filesystem::path file; };        // resolved; inside the case's folder
+struct AgreeSource { std::vector<std::string> backends; };  // each against the last of the list
+using ExpectationSource = std::variant<AnalyticSource, TruthSource, ConstantSource, GoldenSource, AgreeSource>;
+
+// Which pixels an expectation speaks of.
+enum class Where {
+    kTraced,         // pixels that trace a ray (default)
+    kAll,            // every pixel
+    kAnswerable,     // the screen could have known (ScreenKnowledge::kVisible)
+    kAnswerableHits, // and the output HitSuccess says hit
+    kHits,           // HitSuccess says hit
+};
+
+struct Expectation {
+    OutputInfo output;
+    ExpectationSource source;
+    Tolerance tolerance;
+    std::optional<HitBudget> budget; // HitSuccess against the truth
+    Where where = Where::kTraced;
+    std::vector<std::string> backends; // empty: all; else only these are held to it
+    SourcePosition position;           // of the [[expect]] table
+};
+
+struct KnownFailure {
+    std::vector<std::string> backends; // empty: all
+    std::string issue;                 // a link or number
+    std::string until;                 // YYYY-MM-DD, inclusive; after it the failure counts
+    std::string reason;
+};
+
+struct Case {
+    std::string name;    // "refraction/sphere_true_sphere", sub-cases "name[ior=1.2,thickness=0.5]"
+    std::string summary;
+    std::vector<std::string> tags;
+    std::filesystem::path file;
+    SourcePosition position;
+
+    Camera camera;
+    Scene scene;                                // empty when a recorded G-buffer is given
+    std::optional<RecordedGBuffer> recorded;
+    TraceEffect effect = TraceEffect::kReflection;
+    Material material;
+    Projection projection;
+    std::vector<OutputInfo> outputs;            // all that is written: the expected ones and those of `outputs`
+    std::vector<Expectation> expectations;
+    std::vector<std::string> backends;          // empty: all
+    std::vector<KnownFailure> knownFailures;
+    bool mustFail = false;                      // passes when the judge fails it on every backend: proof of the ruler
+    double timeoutSeconds = 20;
+};
+
+// Reads one file and expands its parameter lists. Throws InputError with file:line:column and what is allowed.
+std::vector<Case> readCaseFile(const std::filesystem::path& file);
+
+// Values for one key by its dotted name ("material.ior"), as `--set` and the inspector use. Throws InputError on an unknown key
+// or a value out of range.
+std::vector<Case> readCaseFile(const std::filesystem::path& file,
+                               const std::map<std::string, std::string>& overrides);
+
+// Every *.toml below `root` in order of path.
+std::vector<std::filesystem::path> findCaseFiles(const std::filesystem::path& root);
+
+// One key of the format; the schema is the parser's own table.
+struct CaseKey {
+    std::string table;       // "" for the top level, "scene", "expect", ...
+    std::string key;
+    std::string type;        // "string", "number", "integer", "boolean", "vec3", "list of string", ...
+    std::string allowed;     // range or choices, in words
+    std::string defaultText; // "required" where there is none
+    std::string summary;
+};
+std::vector<CaseKey> caseSchema();
+
+} // namespace crossray

@@ -1,0 +1,92 @@
+// The ruler: typed comparison of an output with its expectation. The judge knows the types; raw values are compared, never
+// display encodings. NaN equals nothing but an expected NaN.
+#pragma once
+
+#include "harness/base/outputs.h"
+#include "harness/base/plane.h"
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace crossray {
+
+// A pixel passes when it is within any of the bounds that are set. What is not set does not help a pixel to pass.
+struct Tolerance {
+    std::optional<double> degrees;  // kDirection: angle between the two
+    std::optional<double> relative; // |a - e| <= relative * |e|
+    std::optional<double> absolute; // |a - e| <= absolute
+    std::optional<double> ulps;     // units in the last place of a float (of a double when doublePrecision is set)
+    double floor = 0;               // below this magnitude both count as zero
+    bool doublePrecision = false;   // measure ulps in doubles: cpu64 against closed forms
+
+    // Pixels beyond the bounds above that a case accepts, as a share of the compared ones. It never stands alone: `worst` bounds
+    // each of them, in the type's own unit (degrees; relative error; absolute error for scalars and colours).
+    double outlierShare = 0;
+    std::optional<double> worst;
+};
+
+// Budgets of a screen-space answer against the truth (domain yardstick). Unset bounds are not checked.
+struct HitBudget {
+    std::optional<double> recall;    // answerable rays whose hit is right, at least
+    std::optional<double> precision; // right hits over claimed hits, at least
+    std::optional<double> falseHits; // claimed hits among the unanswerable, at most
+    double positionPx = 2.0;         // a hit is right when it lies within this distance on screen
+};
+
+struct PixelDifference {
+    int x = 0, y = 0;
+    std::vector<double> expected, actual;
+    double error = 0; // in `unit`
+};
+
+// 4x4 counts, [expected][actual] by HitClass.
+struct ConfusionMatrix {
+    uint64_t counts[4][4] = {};
+};
+
+struct Comparison {
+    bool passed = false;
+    std::string unit;        // of the errors: "degrees", "relative", "absolute", "ulp", "class", "px"
+    uint64_t compared = 0;   // pixels under the mask
+    uint64_t failed = 0;     // pixels beyond the tolerance (outliers included, also when they are accepted)
+    std::optional<PixelDifference> worst;
+    double median = 0, p95 = 0, p99 = 0, max = 0, mean = 0; // of the pixel errors, finite ones
+    std::map<std::string, uint64_t> census; // every difference by kind: "NaN for finite", "hit for miss", "beyond tolerance"...
+    std::optional<ConfusionMatrix> confusion; // hit classes
+    std::map<std::string, double> metrics;    // "recall", "precision", "false", "answerable", ...
+    std::string reason;                       // one line: why it failed, the worst first; empty when passed
+};
+
+// Pixels to compare; empty = all. One byte a pixel, 0 leaves it out.
+using Mask = std::vector<uint8_t>;
+
+// Throws InputError when the planes differ in shape or the tolerance sets no bound that its type knows: a broken case, not a
+// failed one.
+Comparison compareDirections(const Plane& expected, const Plane& actual, const Mask& mask, const Tolerance& tolerance);
+Comparison compareDepths(const Plane& expected, const Plane& actual, const Mask& mask, const Tolerance& tolerance);
+Comparison compareHitClasses(const Plane& expected, const Plane& actual, const Mask& mask, const Tolerance& tolerance);
+Comparison compareColors(const Plane& expected, const Plane& actual, const Mask& mask, const Tolerance& tolerance);
+Comparison compareScalars(const Plane& expected, const Plane& actual, const Mask& mask, const Tolerance& tolerance);
+Comparison compareCounts(const Plane& expected, const Plane& actual, const Mask& mask, const Tolerance& tolerance);
+// The one for the type.
+Comparison compare(OutputType type, const Plane& expected, const Plane& actual, const Mask& mask, const Tolerance& tolerance);
+
+// One pixel of the truth as the budget sees it.
+struct HitTruth {
+    bool traced = false;     // the pixel traces a ray at all
+    bool answerable = false; // the true hit is visible on screen
+    double hitX = 0, hitY = 0; // px, where the true hit is on screen
+};
+
+// HitSuccess and HitPositionSS (the end on screen of each claimed hit) against the truth. Without a position plane a claimed hit
+// is right when the ray is answerable.
+Comparison judgeHits(const std::vector<HitTruth>& truth, const Plane& hitSuccess, const Plane* hitPositionSS,
+                     const HitBudget& budget);
+
+// Units in the last place between two values, in float or in double; 0 for equal (also -0 and +0), infinity across NaN.
+double ulpDistance(double a, double b, bool doublePrecision);
+
+} // namespace crossray

@@ -1,0 +1,54 @@
+// G-buffers: from an analytic scene by the ray caster, or from another renderer's EXR.
+#pragma once
+
+#include "harness/base/plane.h"
+#include "harness/scene/camera.h"
+#include "harness/scene/scene.h"
+
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace crossray {
+
+// The channels a shader may ask for. Values are doubles; float devices receive them rounded once.
+enum class GBufferChannel {
+    kDeviceDepth, // 1: [0,1], the camera's convention; cleared where there is no surface
+    kLinearDepth, // 1: metres along the view axis; 0 where there is no surface
+    kNormalWS,    // 3: unit, towards the viewer's side for planes seen from behind; 0 where there is no surface
+    kPositionWS,  // 3: metres; 0 where there is no surface
+    kColor,       // 3: linear radiance; the sky's where there is no surface
+    kObjectIndex, // 1: 0 where there is no surface
+};
+std::string_view nameOf(GBufferChannel channel);
+int channelCount(GBufferChannel channel);
+
+struct GBuffer {
+    Camera camera;
+    std::map<GBufferChannel, Plane> planes; // only what was asked for
+    const Plane& plane(GBufferChannel channel) const; // throws InputError that names the channel when it is missing
+};
+
+// Samples each pixel's centre. Only the channels asked for are computed.
+GBuffer renderGBuffer(const Scene& scene, const Camera& camera, std::span<const GBufferChannel> channels);
+
+// How to find the channels in another renderer's EXR: our channel -> "layer.channel" names in order. Blender's multilayer names
+// (ViewLayer.Depth.Z and so on) are the default and need no map.
+using ChannelMap = std::map<GBufferChannel, std::vector<std::string>>;
+ChannelMap blenderChannelMap();
+
+// Reads an EXR and derives what it lacks and can be computed (device depth from linear depth, position from depth). Throws
+// InputError naming the file when it is truncated, has missing channels (named), another size than the camera's, or a header
+// beyond 16384 a side.
+GBuffer readGBuffer(const std::filesystem::path& file, const Camera& camera, const ChannelMap& map,
+                    std::span<const GBufferChannel> channels);
+void writeGBuffer(const std::filesystem::path& file, const GBuffer& gbuffer);
+
+// camera.json of a recorded data set: "size", "camera" {fov_y_deg, near, far}, "camera_to_world_rows", and
+// optionally "primitives". Throws InputError with file and what is wrong.
+Camera readCameraJson(const std::filesystem::path& file);
+Scene readSceneJson(const std::filesystem::path& file);
+
+} // namespace crossray

@@ -1,0 +1,75 @@
+// Analytic scenes: plane, sphere and box primitives with closed-form unlit radiance under a gradient sky, and the
+// double-precision ray caster over them. Shares no code with the shaders.
+#pragma once
+
+#include "harness/scene/camera.h"
+
+#include <glm/glm.hpp>
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace crossray {
+
+enum class RadiancePattern { kSolid, kChecker, kGradient };
+
+// Unlit emitted radiance as a function of the position. Checker: cells of `cellSize` metres in the primitive's local frame,
+// colorA where the sum of the cell indices is even. Gradient: from colorA to colorB along the local axis over the extent.
+struct Radiance {
+    RadiancePattern pattern = RadiancePattern::kSolid;
+    glm::dvec3 colorA{0.8};
+    glm::dvec3 colorB{0.2};
+    double cellSize = 0.5; // metres
+    int axis = 1;          // gradient: 0 x, 1 y, 2 z of the local frame
+};
+
+enum class PrimitiveShape { kPlane, kSphere, kBox };
+
+// The local frame is a rotation about `center`; scale is carried by the extents.
+struct Primitive {
+    PrimitiveShape shape = PrimitiveShape::kPlane;
+    glm::dvec3 center{0.0};
+    glm::dmat3 worldFromLocal{1.0};                                        // rotation
+    glm::dvec3 halfExtents{std::numeric_limits<double>::infinity()};       // plane: local x and y; box: all three
+    double radius = 1.0;                                                   // sphere
+    Radiance radiance;
+    std::string material = "diffuse"; // "diffuse", "mirror" (traced by reflection) or "glass" (traced by refraction)
+    double ior = 1.5;                 // glass
+    int objectIndex = 0;              // 0: numbered by order, from 1
+};
+
+// Radiance by direction: zenith to horizon to nadir, linear in the angle's sine (dot with up).
+struct Sky {
+    glm::dvec3 zenith{0.25, 0.45, 0.85};
+    glm::dvec3 horizon{0.75, 0.85, 0.95};
+    glm::dvec3 nadir{0.2, 0.18, 0.16};
+};
+
+struct Scene {
+    std::vector<Primitive> primitives;
+    Sky sky;
+    glm::dvec3 upWS{0.0, 1.0, 0.0};
+};
+
+struct SurfaceHit {
+    double distance = 0;     // along the unit ray, metres
+    glm::dvec3 positionWS{0.0};
+    glm::dvec3 normalWS{0.0}; // unit, geometric: outward for spheres and boxes, local +z for planes
+    int primitive = -1;
+    bool backFace = false; // the ray runs along the normal: it leaves a solid, or sees a plane from behind
+};
+
+inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
+// Nearest hit with distance in (minDistance, maxDistance); planes are hit from both sides. `ignorePrimitive` is skipped.
+std::optional<SurfaceHit> castRay(const Scene& scene, const Ray& ray, double minDistance = 1e-9,
+                                  double maxDistance = kNoLimit, int ignorePrimitive = -1);
+// All hits of one primitive along the ray, in order of distance, from (-inf, inf).
+std::vector<SurfaceHit> intersectPrimitive(const Primitive& primitive, const Ray& ray);
+
+glm::dvec3 computeRadiance(const Scene& scene, const SurfaceHit& hit);
+glm::dvec3 computeSkyRadiance(const Scene& scene, const glm::dvec3& dirWS);
+
+} // namespace crossray
