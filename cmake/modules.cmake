@@ -1,6 +1,6 @@
 # The house of harness/, from the ground up: a folder may include what its USES name, and what those use.
 crossray_module(base PACKAGES glm::glm)
-crossray_module(scene USES base PACKAGES OpenEXR::OpenEXR nlohmann_json::nlohmann_json)
+crossray_module(scene USES base PACKAGES PkgConfig::OpenEXR nlohmann_json::nlohmann_json)
 crossray_module(compile USES base
                 PACKAGES glslang SPIRV glslang-default-resource-limits SPIRV-Tools-opt SPIRV-Tools spirv-cross-c-shared)
 crossray_module(backend USES base)
