@@ -15,3 +15,7 @@ crossray_module(run USES pass backend/cpu backend/vulkan backend/gl
                 PACKAGES nlohmann_json::nlohmann_json pugixml::pugixml)
 crossray_module(bench USES run)
 crossray_module(cli USES run PACKAGES CLI11::CLI11 PNG::PNG)
+
+# The GLSL library in float: 0.5 is a float there, as in GLSL.
+file(GLOB float_shader_units CONFIGURE_DEPENDS harness/backend/cpu/*32.cpp)
+set_source_files_properties(${float_shader_units} PROPERTIES COMPILE_OPTIONS -fsingle-precision-constant)

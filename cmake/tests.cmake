@@ -4,11 +4,11 @@ find_package(rapidcheck REQUIRED)
 include(GoogleTest)
 
 function(crossray_test_program name)
-  cmake_parse_arguments(arg "" "" "SOURCES;USES" ${ARGN})
+  cmake_parse_arguments(arg "" "PREFIX" "SOURCES;USES" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE ${arg_USES} GTest::gtest GTest::gtest_main rapidcheck)
   target_compile_definitions(${name} PRIVATE CROSSRAY_SOURCE_DIR="${CMAKE_SOURCE_DIR}" CROSSRAY_BINARY_DIR="${CMAKE_BINARY_DIR}")
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
+  gtest_discover_tests(${name} TEST_PREFIX "${arg_PREFIX}" DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
 endfunction()
 
 foreach(module base scene compile backend backend_cpu backend_vulkan backend_gl judge case expect pass run bench cli)
@@ -18,8 +18,10 @@ foreach(module base scene compile backend backend_cpu backend_vulkan backend_gl 
   endif()
 endforeach()
 
-# The shader library as C++: each file once in float and once in double.
+# The shader library as C++: the same tests once in float and once in double, and the same .glsl files that ship.
 file(GLOB shader_test_sources CONFIGURE_DEPENDS tests/shader/*_test.cpp)
-if(shader_test_sources AND TARGET crossray_backend_cpu)
-  crossray_test_program(test_shader SOURCES ${shader_test_sources} USES crossray_backend_cpu)
-endif()
+foreach(precision 32 64)
+  crossray_test_program(test_shader${precision} SOURCES ${shader_test_sources} USES crossray_base PREFIX cpu${precision}.)
+  target_compile_definitions(test_shader${precision} PRIVATE CROSSRAY_GLSL_PRECISION=${precision})
+endforeach()
+target_compile_options(test_shader32 PRIVATE -fsingle-precision-constant)

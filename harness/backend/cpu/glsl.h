@@ -1,0 +1,49 @@
+// Compiles the GLSL library as C++, in float or in double: include this, then the .glsl files and the bodies of their
+// hooks, then glsl_end.h.
+//
+//     #define CROSSRAY_GLSL_PRECISION 64            // or 32
+//     #include "harness/backend/cpu/glsl.h"         // opens namespace crossray::cpu64 and an unnamed namespace in it
+//     #include "crossray/project/hiz.glsl"
+//     vec2 fetchDepthPyramid(ivec2 cell, int level) { ... }
+//     #include "harness/backend/cpu/glsl_end.h"     // closes both
+//
+// The rest of the unit reaches the names through `using namespace crossray::cpu64`. All names have internal linkage, so
+// that units with different hooks live in one program. Include every C++ header before this one.
+//
+// A float unit is compiled with -fsingle-precision-constant, so that 0.5 is a float there, as in GLSL (CMake sets it
+// for *32.cpp of this folder). One unit holds one precision.
+//
+// What it offers: scalars, vec2..4, ivec2..4, uvec2..4, bvec2..4, mat3, mat4, swizzles that are read (xyzw up to three
+// components, the usual ones of four, and rg, rgb, rgba, ...), GLSL's operators and its built-in functions by GLSL's
+// own definitions. The functions are no templates, so that `normalize(v.xyz)` converts its argument. The types are not
+// GLM's: GLM changes its classes by macros, and two forms of one class in one program break the one-definition rule.
+//
+// What it does not offer: writing through a swizzle, arrays' constructors, not(), mat2 and non-square matrices, `f`
+// suffixes (a float in a double unit), implicit conversion of ivec to vec, and in double the bit casts floatBitsToInt
+// and its kin.
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#if !defined(CROSSRAY_GLSL_PRECISION) || (CROSSRAY_GLSL_PRECISION != 32 && CROSSRAY_GLSL_PRECISION != 64)
+#error "define CROSSRAY_GLSL_PRECISION as 32 or 64 before including harness/backend/cpu/glsl.h"
+#endif
+
+// A unit uses some of what it includes.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wunused-variable"
+
+#if CROSSRAY_GLSL_PRECISION == 64
+#define float double
+namespace crossray::cpu64 {
+#else
+static_assert(sizeof(0.5) == sizeof(float), "compile this unit with -fsingle-precision-constant");
+namespace crossray::cpu32 {
+#endif
+namespace {
+
+#include "harness/backend/cpu/glsl_types.inl"
+#include "harness/backend/cpu/glsl_functions.inl"

@@ -1,0 +1,114 @@
+// Small maths that the whole library stands on: answers that stay finite where GLSL leaves them open.
+// Hooks: none. Source: the definitions themselves.
+//
+// Comparisons are written so that a NaN makes them false and the false branch is the defended one: some compilers turn
+// `!(a < b)` into `a >= b`, which is no longer true for a NaN.
+#ifndef CROSSRAY_CORE_MATH_GLSL
+#define CROSSRAY_CORE_MATH_GLSL
+
+const float kPi = 3.14159265358979324;
+// Metres. What stands for "infinitely far": the largest half-float, so that it survives 16-bit targets.
+const float kFarAway = 65504.0;
+// Vectors shorter or longer than these have no direction here: squares of scaled components neither vanish nor
+// overflow.
+const float kShortestVector = 1e-30;
+const float kLongestVector = 1e30;
+
+// x clamped to [0,1]; a NaN gives 0.
+float saturate(float x)
+{
+    return x > 0.0 ? min(x, 1.0) : 0.0;
+}
+
+vec2 saturate(vec2 v)
+{
+    return vec2(saturate(v.x), saturate(v.y));
+}
+
+vec3 saturate(vec3 v)
+{
+    return vec3(saturate(v.x), saturate(v.y), saturate(v.z));
+}
+
+// True for a number: neither NaN nor infinite nor beyond 1e37.
+bool isFinite(float x)
+{
+    return abs(x) < 1e37;
+}
+
+bool isFinite(vec2 v)
+{
+    return isFinite(v.x) && isFinite(v.y);
+}
+
+bool isFinite(vec3 v)
+{
+    return isFinite(v.x) && isFinite(v.y) && isFinite(v.z);
+}
+
+bool isFinite(vec4 v)
+{
+    return isFinite(v.xyz) && isFinite(v.w);
+}
+
+// x where it is finite, else the fallback.
+float finiteOr(float x, float fallback)
+{
+    return isFinite(x) ? x : fallback;
+}
+
+// Sum of the absolute components: NaN and infinity come through, and it is 0 only for the zero vector.
+float sumOfMagnitudes(vec3 v)
+{
+    return abs(v.x) + abs(v.y) + abs(v.z);
+}
+
+// True where safeNormalize finds a direction.
+bool hasDirection(vec3 v)
+{
+    float size = sumOfMagnitudes(v);
+    return size > kShortestVector && size < kLongestVector;
+}
+
+// v scaled to length 1. The fallback (unit, or whatever the caller wants to see) answers for zero, NaN, infinite, and
+// vectors outside 1e-30 to 1e30. Lengths whose squares leave the range of a float (1e-25, 1e25) are no problem.
+vec3 safeNormalize(vec3 v, vec3 fallback)
+{
+    float size = sumOfMagnitudes(v);
+    bool usable = size > kShortestVector && size < kLongestVector;
+    vec3 scaled = v / (usable ? size : 1.0);
+    return usable ? scaled * inversesqrt(dot(scaled, scaled)) : fallback;
+}
+
+// a / b, and the fallback where that is no finite number (b = 0 among others).
+float safeDivide(float a, float b, float fallback)
+{
+    float size = abs(b);
+    float quotient = a / (size > 0.0 ? b : 1.0);
+    return size > 0.0 && isFinite(quotient) ? quotient : fallback;
+}
+
+// x, moved away from 0 by keeping at least `smallest` (> 0) of magnitude; -0 and +0 become +smallest.
+float awayFromZero(float x, float smallest)
+{
+    return abs(x) >= smallest ? x : (x < 0.0 ? -smallest : smallest);
+}
+
+float minComponent(vec3 v)
+{
+    return min(v.x, min(v.y, v.z));
+}
+
+float maxComponent(vec3 v)
+{
+    return max(v.x, max(v.y, v.z));
+}
+
+// The cubic S(x) = x*x*(3 - 2x) over x clamped to [0,1].
+float smoothRamp(float x)
+{
+    float t = saturate(x);
+    return t * t * (3.0 - 2.0 * t);
+}
+
+#endif
