@@ -30,9 +30,9 @@ struct Ray {
 };
 
 struct ScreenPoint {
-    glm::dvec2 positionSS{0.0};
+    glm::dvec2 positionSS{0.0}; // 0 where not in front
     double linearDepth = 0;   // metres along the view axis; negative behind the camera
-    double deviceDepth = 0;   // as stored in a depth buffer: always in [0,1] inside the frustum, also for [-1,1] NDC
+    double deviceDepth = 0;   // as stored in a depth buffer: in [0,1] inside the frustum, also for [-1,1] NDC; 0 where not in front
     bool inFront = false;     // linearDepth > 0 (perspective: clip w > 0)
     bool onScreen = false;    // in front and inside the image, borders included
 };
@@ -56,7 +56,8 @@ double computeLinearDepth(const Camera& camera, double deviceDepth);
 // Depth-buffer value of "no surface": 0 for the reversed conventions, 1 for the standard one.
 double clearedDeviceDepth(const Camera& camera);
 
-// Throws InputError with what is allowed when a number is NaN, infinite or out of range, or the image is not 1 to 16384 a side.
+// Throws InputError with what is allowed when a number is NaN, infinite or out of range, the world matrix is not rigid (to 1e-6),
+// the image is not 1 to 16384 a side, or an orthographic camera asks for an infinite far plane.
 void validateCamera(const Camera& camera);
 
 } // namespace crossray

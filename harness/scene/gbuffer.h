@@ -17,7 +17,7 @@ namespace crossray {
 enum class GBufferChannel {
     kDeviceDepth, // 1: [0,1], the camera's convention; cleared where there is no surface
     kLinearDepth, // 1: metres along the view axis; 0 where there is no surface
-    kNormalWS,    // 3: unit, towards the viewer's side for planes seen from behind; 0 where there is no surface
+    kNormalWS,    // 3: unit, geometric, on the viewer's side (also for planes seen from behind, and inside a solid); 0 without a surface
     kPositionWS,  // 3: metres; 0 where there is no surface
     kColor,       // 3: linear radiance; the sky's where there is no surface
     kObjectIndex, // 1: 0 where there is no surface
@@ -31,7 +31,8 @@ struct GBuffer {
     const Plane& plane(GBufferChannel channel) const; // throws InputError that names the channel when it is missing
 };
 
-// Samples each pixel's centre. Only the channels asked for are computed.
+// Samples each pixel's centre. Only the channels asked for are computed. Surfaces nearer than the camera's near plane or beyond
+// its far plane are cut away, as a rasteriser does. Throws InputError on an invalid camera or scene.
 GBuffer renderGBuffer(const Scene& scene, const Camera& camera, std::span<const GBufferChannel> channels);
 
 // How to find the channels in another renderer's EXR: our channel -> "layer.channel" names in order. Blender's multilayer names

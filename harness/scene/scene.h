@@ -16,7 +16,8 @@ namespace crossray {
 enum class RadiancePattern { kSolid, kChecker, kGradient };
 
 // Unlit emitted radiance as a function of the position. Checker: cells of `cellSize` metres in the primitive's local frame,
-// colorA where the sum of the cell indices is even. Gradient: from colorA to colorB along the local axis over the extent.
+// colorA where the sum of the cell indices is even; on a plane and on a box's face only the two axes along the face count, since
+// across it rounding would choose the cell. Gradient: from colorA to colorB along the local axis over the (finite) extent.
 struct Radiance {
     RadiancePattern pattern = RadiancePattern::kSolid;
     glm::dvec3 colorA{0.8};
@@ -68,6 +69,13 @@ std::optional<SurfaceHit> castRay(const Scene& scene, const Ray& ray, double min
                                   double maxDistance = kNoLimit, int ignorePrimitive = -1);
 // All hits of one primitive along the ray, in order of distance, from (-inf, inf).
 std::vector<SurfaceHit> intersectPrimitive(const Primitive& primitive, const Ray& ray);
+
+// Throws InputError when a number is NaN, a size is not above 0, a frame is no rotation, a material or pattern is unknown or does
+// not go with the shape (a plane of glass, a gradient over an infinite extent).
+void validateScene(const Scene& scene);
+
+// Object index as the G-buffer shows it: the primitive's own, or its number in the scene from 1.
+int objectIndexOf(const Scene& scene, int primitive);
 
 glm::dvec3 computeRadiance(const Scene& scene, const SurfaceHit& hit);
 glm::dvec3 computeSkyRadiance(const Scene& scene, const glm::dvec3& dirWS);

@@ -1,0 +1,159 @@
+#include "harness/scene/random_scene.h"
+
+#include <cmath>
+
+namespace crossray {
+
+namespace {
+
+constexpr double kReach = 10.0; // metres: |x| and |z| of floor and walls
+constexpr double kHeight = 6.0;
+constexpr double kWallZ = -6.0;
+constexpr double kWallX = -7.0;
+constexpr double kEyeClearance = 0.4;
+constexpr uint64_t kCameraStream = 0x63616d6572610000ULL; // keeps the camera's numbers apart from the room's
+
+// One draw a statement everywhere: the order in which arguments are evaluated is the compiler's choice.
+glm::dvec3 drawColor(RandomStream& random)
+{
+    const double r = random.next(0.1, 1.0);
+    const double g = random.next(0.1, 1.0);
+    const double b = random.next(0.1, 1.0);
+    return {r, g, b};
+}
+
+void dress(Primitive& primitive, RandomStream& random)
+{
+    primitive.material = "mirror";
+    primitive.radiance.pattern = RadiancePattern::kChecker;
+    primitive.radiance.colorA = drawColor(random);
+    primitive.radiance.colorB = 0.4 * primitive.radiance.colorA;
+    primitive.radiance.cellSize = 0.5;
+}
+
+Primitive makeWall(const glm::dvec3& center, const glm::dvec3& xAxis, const glm::dvec3& yAxis, double halfX,
+                   double halfY)
+{
+    Primitive wall;
+    wall.shape = PrimitiveShape::kPlane;
+    wall.center = center;
+    wall.worldFromLocal = glm::dmat3(xAxis, yAxis, glm::cross(xAxis, yAxis));
+    wall.halfExtents = {halfX, halfY, kNoLimit};
+    return wall;
+}
+
+Primitive drawBox(RandomStream& random)
+{
+    Primitive box;
+    box.shape = PrimitiveShape::kBox;
+    box.halfExtents.x = random.next(0.15, 1.2);
+    box.halfExtents.y = random.next(0.1, 1.2);
+    box.halfExtents.z = random.next(0.15, 1.2);
+    const bool raised = random.chance(0.4);
+    const double lift = random.next(0.3, 1.5);
+    box.center.x = random.next(-4.5, 4.5);
+    box.center.y = box.halfExtents.y + (raised ? lift : 0.0);
+    box.center.z = random.next(-4.5, 2.5);
+    return box;
+}
+
+Primitive drawPole(RandomStream& random)
+{
+    Primitive pole;
+    pole.shape = PrimitiveShape::kBox;
+    const double halfWidth = random.next(0.02, 0.06);
+    const double halfHeight = random.next(0.4, 1.3);
+    pole.halfExtents = {halfWidth, halfHeight, halfWidth};
+    pole.center.x = random.next(-4.5, 4.5);
+    pole.center.y = halfHeight;
+    pole.center.z = random.next(-4.5, 3.0);
+    return pole;
+}
+
+Primitive drawSphere(RandomStream& random)
+{
+    Primitive sphere;
+    sphere.shape = PrimitiveShape::kSphere;
+    sphere.radius = random.next(0.25, 1.0);
+    const bool raised = random.chance(0.3);
+    const double lift = random.next(0.0, 1.0);
+    sphere.center.x = random.next(-4.0, 4.0);
+    sphere.center.y = sphere.radius + (raised ? lift : 0.0);
+    sphere.center.z = random.next(-4.0, 3.0);
+    return sphere;
+}
+
+double distanceToSolid(const Primitive& solid, const glm::dvec3& positionWS)
+{
+    const glm::dvec3 local = glm::transpose(solid.worldFromLocal) * (positionWS - solid.center);
+    if (solid.shape == PrimitiveShape::kSphere) return glm::length(local) - solid.radius;
+    return glm::length(glm::max(glm::abs(local) - solid.halfExtents, 0.0));
+}
+
+bool isClear(const Scene& scene, const glm::dvec3& eyeWS)
+{
+    for (const Primitive& primitive : scene.primitives)
+        if (primitive.shape != PrimitiveShape::kPlane && distanceToSolid(primitive, eyeWS) < kEyeClearance)
+            return false;
+    return true;
+}
+
+} // namespace
+
+uint64_t RandomStream::nextBits()
+{
+    state_ += 0x9e3779b97f4a7c15ULL;
+    uint64_t z = state_;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+    return z ^ (z >> 31);
+}
+
+double RandomStream::next(double low, double high)
+{
+    return low + (high - low) * (static_cast<double>(nextBits() >> 11) * 0x1p-53);
+}
+
+Scene makeRandomRoom(uint64_t seed)
+{
+    RandomStream random(seed);
+    const glm::dvec3 x(1, 0, 0);
+    const glm::dvec3 y(0, 1, 0);
+    const glm::dvec3 z(0, 0, 1);
+    Scene scene;
+    scene.primitives.push_back(makeWall({0, 0, 0}, x, -z, kReach, kReach));                         // normal +y
+    scene.primitives.push_back(makeWall({0, 0.5 * kHeight, kWallZ}, x, y, kReach, 0.5 * kHeight));  // normal +z
+    scene.primitives.push_back(makeWall({kWallX, 0.5 * kHeight, 0}, -z, y, kReach, 0.5 * kHeight)); // normal +x
+    for (int i = 0; i < 4; ++i)
+        scene.primitives.push_back(drawBox(random));
+    for (int i = 0; i < 6; ++i)
+        scene.primitives.push_back(drawPole(random));
+    for (int i = 0; i < 4; ++i)
+        scene.primitives.push_back(drawSphere(random));
+    for (Primitive& primitive : scene.primitives)
+        dress(primitive, random);
+    return scene;
+}
+
+Camera makeRandomRoomCamera(uint64_t seed, int width, int height)
+{
+    const Scene scene = makeRandomRoom(seed);
+    RandomStream random(seed ^ kCameraStream);
+    glm::dvec3 eyeWS;
+    do { // the region is far larger than what 14 objects can fill
+        eyeWS.x = random.next(-3.5, 5.0);
+        eyeWS.y = random.next(0.4, 4.5);
+        eyeWS.z = random.next(3.5, 7.0);
+    } while (!isClear(scene, eyeWS));
+    glm::dvec3 targetWS;
+    targetWS.x = random.next(-1.5, 1.5);
+    targetWS.y = random.next(0.2, 1.2);
+    targetWS.z = random.next(-2.5, 0.5);
+    Camera camera;
+    camera.worldFromView = makeLookAt(eyeWS, targetWS, {0, 1, 0});
+    camera.width = width;
+    camera.height = height;
+    return camera;
+}
+
+} // namespace crossray

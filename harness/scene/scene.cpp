@@ -1,0 +1,265 @@
+#include "harness/scene/scene.h"
+
+#include "harness/base/error.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+namespace crossray {
+
+namespace {
+
+// One crossing of a ray and a primitive, before position and normal are worked out.
+struct Crossing {
+    double distance = 0;
+    int axis = 2;      // box: the face's axis
+    double sign = 1.0; // box: which of the axis' two faces
+};
+
+struct Crossings {
+    std::array<Crossing, 2> at;
+    int count = 0;
+};
+
+// The half-chord comes from the ray's distance to the centre: no difference of large squares, so far spheres stay
+// exact.
+Crossings crossSphere(const Primitive& sphere, const Ray& ray)
+{
+    const glm::dvec3 fromCenter = ray.originWS - sphere.center;
+    const double along = glm::dot(fromCenter, ray.dirWS);
+    const glm::dvec3 nearest = fromCenter - along * ray.dirWS;
+    const double squared = sphere.radius * sphere.radius - glm::dot(nearest, nearest);
+    if (!(squared >= 0.0)) return {};
+    const double halfChord = std::sqrt(squared);
+    return {{{{-along - halfChord, 2, 1.0}, {-along + halfChord, 2, 1.0}}}, 2};
+}
+
+Crossings crossPlane(const Primitive& plane, const Ray& ray)
+{
+    const glm::dvec3 fromCenter = ray.originWS - plane.center;
+    const double height = glm::dot(plane.worldFromLocal[2], fromCenter);
+    const double descent = glm::dot(plane.worldFromLocal[2], ray.dirWS);
+    if (descent == 0.0) return {};
+    const double distance = -height / descent;
+    const glm::dvec3 hit = fromCenter + distance * ray.dirWS;
+    if (!(std::abs(glm::dot(plane.worldFromLocal[0], hit)) <= plane.halfExtents.x) ||
+        !(std::abs(glm::dot(plane.worldFromLocal[1], hit)) <= plane.halfExtents.y))
+        return {};
+    return {{{{distance, 2, 1.0}, {}}}, 1};
+}
+
+Crossings crossBox(const Primitive& box, const Ray& ray)
+{
+    const glm::dvec3 fromCenter = ray.originWS - box.center;
+    Crossing entry{-kNoLimit, 0, 1.0};
+    Crossing exit{kNoLimit, 0, 1.0};
+    for (int axis = 0; axis < 3; ++axis) {
+        const double origin = glm::dot(box.worldFromLocal[axis], fromCenter);
+        const double dir = glm::dot(box.worldFromLocal[axis], ray.dirWS);
+        const double half = box.halfExtents[axis];
+        if (dir == 0.0) { // parallel to the slab: inside it for ever, or never
+            if (std::abs(origin) > half) return {};
+            continue;
+        }
+        const double sign = dir > 0.0 ? 1.0 : -1.0;
+        const double enters = (-sign * half - origin) / dir;
+        const double leaves = (sign * half - origin) / dir;
+        if (enters > entry.distance) entry = {enters, axis, -sign};
+        if (leaves < exit.distance) exit = {leaves, axis, sign};
+    }
+    if (!(entry.distance <= exit.distance)) return {};
+    return {{{entry, exit}}, 2};
+}
+
+Crossings crossPrimitive(const Primitive& primitive, const Ray& ray)
+{
+    switch (primitive.shape) {
+    case PrimitiveShape::kPlane:
+        return crossPlane(primitive, ray);
+    case PrimitiveShape::kSphere:
+        return crossSphere(primitive, ray);
+    case PrimitiveShape::kBox:
+        break;
+    }
+    return crossBox(primitive, ray);
+}
+
+SurfaceHit makeHit(const Primitive& primitive, int index, const Ray& ray, const Crossing& crossing)
+{
+    SurfaceHit hit;
+    hit.distance = crossing.distance;
+    hit.positionWS = ray.originWS + crossing.distance * ray.dirWS;
+    hit.primitive = index;
+    switch (primitive.shape) {
+    case PrimitiveShape::kPlane:
+        hit.normalWS = primitive.worldFromLocal[2];
+        break;
+    case PrimitiveShape::kSphere:
+        hit.normalWS = glm::normalize(hit.positionWS - primitive.center);
+        break;
+    case PrimitiveShape::kBox:
+        hit.normalWS = crossing.sign * primitive.worldFromLocal[crossing.axis];
+        break;
+    }
+    hit.backFace = glm::dot(hit.normalWS, ray.dirWS) > 0.0;
+    return hit;
+}
+
+[[noreturn]] void rejectPrimitive(size_t number, const std::string& what)
+{
+    throw InputError(fmt::format("scene: primitive {}: {}", number, what));
+}
+
+bool isFinite(const glm::dvec3& v)
+{
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+bool isRotation(const glm::dmat3& m)
+{
+    const glm::dmat3 residue = glm::transpose(m) * m - glm::dmat3(1.0);
+    for (int column = 0; column < 3; ++column)
+        for (int row = 0; row < 3; ++row)
+            if (!(std::abs(residue[column][row]) <= 1e-6)) return false;
+    return glm::determinant(m) > 0.0;
+}
+
+// Extent of a gradient's axis from the centre, metres.
+double gradientHalfExtent(const Primitive& primitive)
+{
+    return primitive.shape == PrimitiveShape::kSphere ? primitive.radius
+                                                      : primitive.halfExtents[primitive.radiance.axis];
+}
+
+void validateRadiance(const Primitive& primitive, size_t number)
+{
+    const Radiance& radiance = primitive.radiance;
+    if (!isFinite(radiance.colorA) || !isFinite(radiance.colorB))
+        rejectPrimitive(number, "a colour holds a NaN or an infinity; allowed: finite radiance");
+    if (radiance.pattern == RadiancePattern::kChecker && !(radiance.cellSize > 0.0 && std::isfinite(radiance.cellSize)))
+        rejectPrimitive(number, fmt::format("cell size {}; allowed: metres above 0", radiance.cellSize));
+    if (radiance.pattern != RadiancePattern::kGradient) return;
+    const int axes = primitive.shape == PrimitiveShape::kPlane ? 2 : 3;
+    if (radiance.axis < 0 || radiance.axis >= axes)
+        rejectPrimitive(number,
+                        fmt::format("gradient axis {}; allowed: 0 to {} of the local frame", radiance.axis, axes - 1));
+    if (!std::isfinite(gradientHalfExtent(primitive)))
+        rejectPrimitive(number, "a gradient over an infinite extent; allowed: a finite half extent along its axis");
+}
+
+void validatePrimitive(const Primitive& primitive, size_t number)
+{
+    if (!isFinite(primitive.center))
+        rejectPrimitive(number, "its centre holds a NaN or an infinity; allowed: a finite point");
+    if (!isRotation(primitive.worldFromLocal))
+        rejectPrimitive(number, "its frame is not a rotation; allowed: orthonormal axes without a mirror image");
+    if (primitive.shape == PrimitiveShape::kSphere) {
+        if (!(primitive.radius > 0.0 && std::isfinite(primitive.radius)))
+            rejectPrimitive(number, fmt::format("radius {}; allowed: metres above 0", primitive.radius));
+    } else {
+        const int axes = primitive.shape == PrimitiveShape::kPlane ? 2 : 3;
+        for (int axis = 0; axis < axes; ++axis) // infinite is allowed: an endless plane, a slab
+            if (!(primitive.halfExtents[axis] > 0.0))
+                rejectPrimitive(number,
+                                fmt::format("half extent {}; allowed: metres above 0", primitive.halfExtents[axis]));
+    }
+    const std::string& material = primitive.material;
+    if (material != "diffuse" && material != "mirror" && material != "glass")
+        rejectPrimitive(number, fmt::format("material \"{}\"; allowed: diffuse, mirror, glass", material));
+    if (material == "glass" && primitive.shape == PrimitiveShape::kPlane)
+        rejectPrimitive(number, "a plane of glass has no inside; allowed: a sphere or a box");
+    if (material == "glass" && !(primitive.ior > 0.0 && std::isfinite(primitive.ior)))
+        rejectPrimitive(number, fmt::format("index of refraction {}; allowed: above 0", primitive.ior));
+    if (primitive.objectIndex < 0)
+        rejectPrimitive(number, fmt::format("object index {}; allowed: 1 and above, or 0 to number by order",
+                                            primitive.objectIndex));
+    validateRadiance(primitive, number);
+}
+
+} // namespace
+
+std::optional<SurfaceHit> castRay(const Scene& scene, const Ray& ray, double minDistance, double maxDistance,
+                                  int ignorePrimitive)
+{
+    Crossing nearest{maxDistance, 2, 1.0};
+    int found = -1;
+    const int count = static_cast<int>(scene.primitives.size());
+    for (int i = 0; i < count; ++i) {
+        if (i == ignorePrimitive) continue;
+        const Crossings crossings = crossPrimitive(scene.primitives[static_cast<size_t>(i)], ray);
+        for (int k = 0; k < crossings.count; ++k) {
+            const Crossing& crossing = crossings.at[static_cast<size_t>(k)];
+            if (crossing.distance > minDistance && crossing.distance < nearest.distance) {
+                nearest = crossing;
+                found = i;
+            }
+        }
+    }
+    if (found < 0) return std::nullopt;
+    return makeHit(scene.primitives[static_cast<size_t>(found)], found, ray, nearest);
+}
+
+std::vector<SurfaceHit> intersectPrimitive(const Primitive& primitive, const Ray& ray)
+{
+    const Crossings crossings = crossPrimitive(primitive, ray);
+    std::vector<SurfaceHit> hits;
+    for (int k = 0; k < crossings.count; ++k) {
+        const Crossing& crossing = crossings.at[static_cast<size_t>(k)];
+        if (!std::isfinite(crossing.distance)) continue; // an endless box
+        hits.push_back(makeHit(primitive, 0, ray, crossing));
+        // A ray that runs along a face can round either way; entry and exit are told by their order.
+        if (primitive.shape != PrimitiveShape::kPlane) hits.back().backFace = k == 1;
+    }
+    return hits;
+}
+
+int objectIndexOf(const Scene& scene, int primitive)
+{
+    const int own = scene.primitives[static_cast<size_t>(primitive)].objectIndex;
+    return own != 0 ? own : primitive + 1;
+}
+
+glm::dvec3 computeRadiance(const Scene& scene, const SurfaceHit& hit)
+{
+    const Primitive& primitive = scene.primitives[static_cast<size_t>(hit.primitive)];
+    const Radiance& radiance = primitive.radiance;
+    if (radiance.pattern == RadiancePattern::kSolid) return radiance.colorA;
+    const glm::dmat3 localFromWorld = glm::transpose(primitive.worldFromLocal);
+    const glm::dvec3 local = localFromWorld * (hit.positionWS - primitive.center);
+    if (radiance.pattern == RadiancePattern::kGradient) {
+        const double half = gradientHalfExtent(primitive);
+        const double t = glm::clamp(0.5 + 0.5 * local[radiance.axis] / half, 0.0, 1.0);
+        return glm::mix(radiance.colorA, radiance.colorB, t);
+    }
+    int acrossAxis = -1; // the face's own axis
+    if (primitive.shape == PrimitiveShape::kPlane) acrossAxis = 2;
+    if (primitive.shape == PrimitiveShape::kBox) {
+        const glm::dvec3 normal = glm::abs(localFromWorld * hit.normalWS);
+        acrossAxis = normal.x > normal.y ? (normal.x > normal.z ? 0 : 2) : (normal.y > normal.z ? 1 : 2);
+    }
+    double parity = 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+        if (axis != acrossAxis) parity += std::floor(local[axis] / radiance.cellSize);
+    return std::fmod(std::abs(parity), 2.0) == 0.0 ? radiance.colorA : radiance.colorB;
+}
+
+glm::dvec3 computeSkyRadiance(const Scene& scene, const glm::dvec3& dirWS)
+{
+    const double sine = glm::clamp(glm::dot(dirWS, scene.upWS), -1.0, 1.0);
+    return sine >= 0.0 ? glm::mix(scene.sky.horizon, scene.sky.zenith, sine)
+                       : glm::mix(scene.sky.horizon, scene.sky.nadir, -sine);
+}
+
+void validateScene(const Scene& scene)
+{
+    for (size_t i = 0; i < scene.primitives.size(); ++i)
+        validatePrimitive(scene.primitives[i], i + 1);
+    if (!isFinite(scene.sky.zenith) || !isFinite(scene.sky.horizon) || !isFinite(scene.sky.nadir))
+        throw InputError("scene: a sky colour holds a NaN or an infinity; allowed: finite radiance");
+    if (!(std::abs(glm::length(scene.upWS) - 1.0) <= 1e-6))
+        throw InputError("scene: its up direction is not of length 1; allowed: a unit vector");
+}
+
+} // namespace crossray
