@@ -71,7 +71,7 @@ TEST(ShaderShim, SwizzlesReadTheirComponents)
     vec4 v(1, 2, 3, 4);
     EXPECT_TRUE(v.wzy == vec3(4, 3, 2));
     EXPECT_TRUE(v.xx + v.zw == vec2(4, 5));
-    EXPECT_TRUE(-v.rgb * 2 == vec3(-2, -4, -6));
+    EXPECT_TRUE(-v.rgb * 2.0 == vec3(-2, -4, -6));
     EXPECT_TRUE(v.wzyx == vec4(4, 3, 2, 1));
     EXPECT_EQ(dot(v.xyz, v.zzz), 18);
     vec4 w = v;

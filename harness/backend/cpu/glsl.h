@@ -13,19 +13,31 @@
 // A float unit is compiled with -fsingle-precision-constant, so that 0.5 is a float there, as in GLSL (CMake sets it
 // for *32.cpp of this folder). One unit holds one precision.
 //
-// What it offers: scalars, vec2..4, ivec2..4, uvec2..4, bvec2..4, mat3, mat4, swizzles that are read (xyzw up to three
-// components, the usual ones of four, and rg, rgb, rgba, ...), GLSL's operators and its built-in functions by GLSL's
-// own definitions. The functions are no templates, so that `normalize(v.xyz)` converts its argument. The types are not
-// GLM's: GLM changes its classes by macros, and two forms of one class in one program break the one-definition rule.
+// What it offers: GLM's scalars, vec2..4, ivec2..4, uvec2..4, bvec2..4, mat3, mat4, swizzles that are read (v.xyz), and
+// GLSL's operators and built-in functions as non-template overloads.
 //
-// What it does not offer: writing through a swizzle, arrays' constructors, not(), mat2 and non-square matrices, `f`
-// suffixes (a float in a double unit), implicit conversion of ivec to vec, and in double the bit casts floatBitsToInt
-// and its kin.
+// What it does not offer: arrays' constructors, not(), `f` suffixes (a float in a double unit), and in double the bit casts
+// floatBitsToInt and its kin. The library does not write through swizzles.
 #pragma once
 
 #include <bit>
 #include <cmath>
 #include <cstdint>
+
+// Swizzle members and what they need change GLM's classes, so this GLM lives in a namespace of its own: two forms of one
+// class in one program would break the one-definition rule.
+#ifdef GLM_VERSION
+#error "include harness/backend/cpu/glsl.h before anything that includes GLM"
+#endif
+#define GLM_FORCE_INTRINSICS // GLM offers swizzle members only with it; vectors stay plain scalars in a row
+#define GLM_FORCE_SWIZZLE
+#define glm crossray_glm
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpedantic"
+#pragma GCC diagnostic ignored "-Wshadow"
+#pragma GCC diagnostic ignored "-Wconversion"
+#include <glm/glm.hpp>
+#pragma GCC diagnostic pop
 
 #if !defined(CROSSRAY_GLSL_PRECISION) || (CROSSRAY_GLSL_PRECISION != 32 && CROSSRAY_GLSL_PRECISION != 64)
 #error "define CROSSRAY_GLSL_PRECISION as 32 or 64 before including harness/backend/cpu/glsl.h"

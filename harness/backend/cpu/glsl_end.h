@@ -9,3 +9,4 @@
 } // namespace crossray::cpu32
 #endif
 #pragma GCC diagnostic pop
+#undef glm
