@@ -18,6 +18,14 @@ foreach(module base scene compile backend backend_cpu backend_vulkan backend_gl 
   endif()
 endforeach()
 
+# The OpenGL tests once more on each other way to a context: a process opens one driver.
+if(TARGET test_backend_gl)
+  foreach(backend softpipe egl)
+    gtest_discover_tests(test_backend_gl TEST_PREFIX ${backend}. DISCOVERY_TIMEOUT 60
+                         PROPERTIES TIMEOUT 300 ENVIRONMENT CROSSRAY_GL_BACKEND=${backend})
+  endforeach()
+endif()
+
 # The shader library as C++: the same tests once in float and once in double, and the same .glsl files that ship.
 file(GLOB shader_test_sources CONFIGURE_DEPENDS tests/shader/*_test.cpp)
 foreach(precision 32 64)

@@ -221,7 +221,7 @@ class GlDevice final : public Device {
             const GlResourceKind kind = findKind(*binding, resources);
             if (kind != resource.kind) throw fail(fmt::format("is bound to a {}", nameGlResourceKind(kind)));
             if (kind == GlResourceKind::kSampler) continue;
-            const size_t bytes = resources.buffers[binding->index].bytes;
+            const size_t bytes = roundUpToVec4(resources.buffers[binding->index].bytes); // as the driver counts
             if (bytes < static_cast<size_t>(resource.bytes))
                 throw fail(fmt::format("needs {} bytes, and is bound to a buffer of {}", resource.bytes, bytes));
         }
@@ -292,9 +292,8 @@ class GlDevice final : public Device {
 
 std::unique_ptr<GlContext> makeContext(const std::string& backend, bool debug)
 {
-    if (backend == "osmesa" || backend == "softpipe") return makeOsmesaContext();
     if (backend == "egl") return makeEglContext(debug);
-    throw EnvironmentError(fmt::format("\"{}\" is no OpenGL backend: osmesa, softpipe and egl are", backend));
+    return makeOsmesaContext();
 }
 
 // A result under the name of another driver would be worse than none.
@@ -313,6 +312,8 @@ void checkDriver(const std::string& backend)
 
 std::unique_ptr<Device> makeGlDevice(const std::string& backendName, const DeviceOptions& options)
 {
+    if (backendName != "osmesa" && backendName != "softpipe" && backendName != "egl")
+        throw EnvironmentError(fmt::format("\"{}\" is no OpenGL backend: osmesa, softpipe and egl are", backendName));
     static std::string opened; // the one backend of this process
     if (!opened.empty() && opened != backendName)
         throw EnvironmentError(fmt::format("{} cannot be opened in a process that has opened {}", backendName, opened));

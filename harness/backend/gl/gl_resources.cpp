@@ -14,7 +14,6 @@ constexpr size_t kIdleBytes = size_t{32} << 20;
 constexpr size_t kIdleNames = 256;          // of each kind
 constexpr size_t kScratchFloats = 1u << 20; // what a large image leaves behind is released
 constexpr size_t kSmallestBuffer = 256;
-constexpr size_t kUniformAlignment = 16; // std140 rounds a block up to a whole vec4
 
 size_t levelSide(int side, int level)
 {
@@ -136,7 +135,7 @@ GlBuffer GlResourcePool::takeBuffer(const BufferDesc& desc)
 
     size_t bytes = uniform ? desc.bytes.size() : desc.scalarCount * sizeof(float);
     bytes = std::max(bytes, sizeof(float)); // an empty range cannot be bound
-    if (uniform) bytes = (bytes + kUniformAlignment - 1) / kUniformAlignment * kUniformAlignment;
+    if (uniform) bytes = roundUpToVec4(bytes);
     const size_t capacity = std::max(kSmallestBuffer, std::bit_ceil(bytes));
     GlBuffer buffer = findIdleBuffer(capacity);
     if (!buffer.name.id()) {

@@ -20,7 +20,7 @@ struct GlImage {
     bool fits(const ImageDesc& desc) const;
 };
 
-// `bytes` are what the job asked for, rounded up to a whole vec4; the storage behind it may be larger.
+// `bytes` are what a shader may see, of a uniform buffer a whole number of vec4; the storage behind it may be larger.
 struct GlBuffer {
     GlBufferName name;
     BufferKind kind = BufferKind::kStorage;
@@ -28,6 +28,12 @@ struct GlBuffer {
     size_t bytes = 0;
     size_t capacity = 0;
 };
+
+// Blocks are counted in whole vec4.
+constexpr size_t roundUpToVec4(size_t bytes)
+{
+    return (bytes + 15) / 16 * 16;
+}
 
 // Uploads on taking, keeps on giving back. Idle storage is bounded; what exceeds it goes, the longest idle first.
 class GlResourcePool {
