@@ -1,5 +1,5 @@
-// A case: one TOML file, or one of the named sub-cases that its parameter lists expand into. docs/case-format.md documents each
-// key; a test holds that document and the schema of this folder against each other.
+// A case: one TOML file, or one of the named sub-cases that its parameter lists expand into. docs/case-format.md
+// documents each key; a test holds that document and the schema of this folder against each other.
 #pragma once
 
 #include "harness/base/error.h"
@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -25,16 +26,16 @@ enum class ScreenWeightForm { kLinear = 0, kSmooth2018 = 1, kSmoothToday = 2 };
 struct Material {
     RefractionModel refractionModel = RefractionModel::kNone;
     double ior = 1.5;
-    double thickness = 1.0;           // metres
+    double thickness = 1.0; // metres
     double thicknessMultiplier = 1.0;
-    double roughness = 0.0;           // perceptual
+    double roughness = 0.0; // perceptual
 };
 
 struct ProxyVolume {
     glm::dvec3 center{0.0};
-    glm::dmat3 worldFromProxy{1.0};   // rotation, no scale
-    glm::dvec3 halfExtents{1.0};      // box
-    double radius = 1.0;              // sphere
+    glm::dmat3 worldFromProxy{1.0}; // rotation, no scale
+    glm::dvec3 halfExtents{1.0};    // box
+    double radius = 1.0;            // sphere
 };
 
 struct HizSettings { // Unity 2018's defaults
@@ -62,11 +63,21 @@ struct RecordedGBuffer {
 };
 
 // Exactly one source.
-struct AnalyticSource { std::string function; };            // a closed form of harness/expect/, by name
-struct TruthSource { std::string quantity; };               // "ray_direction", "hit_depth", "hit", ...
-struct ConstantSource { std::vector<double> value; };       // every compared pixel
-struct GoldenSource { std::filesystem::path file; };        // resolved; inside the case's folder
-struct AgreeSource { std::vector<std::string> backends; };  // each against the last of the list
+struct AnalyticSource {
+    std::string function;
+}; // a closed form of harness/expect/, by name
+struct TruthSource {
+    std::string quantity;
+}; // "ray_direction", "hit_depth", "hit", ...
+struct ConstantSource {
+    std::vector<double> value;
+}; // every compared pixel
+struct GoldenSource {
+    std::filesystem::path file;
+}; // resolved; inside the case's folder
+struct AgreeSource {
+    std::vector<std::string> backends;
+}; // each against the last of the list
 using ExpectationSource = std::variant<AnalyticSource, TruthSource, ConstantSource, GoldenSource, AgreeSource>;
 
 // Which pixels an expectation speaks of.
@@ -96,40 +107,42 @@ struct KnownFailure {
 };
 
 struct Case {
-    std::string name;    // "refraction/sphere_true_sphere", sub-cases "name[ior=1.2,thickness=0.5]"
+    std::string name; // "refraction/sphere_true_sphere", sub-cases "name[ior=1.2,thickness=0.5]"
     std::string summary;
     std::vector<std::string> tags;
     std::filesystem::path file;
     SourcePosition position;
 
     Camera camera;
-    Scene scene;                                // empty when a recorded G-buffer is given
+    Scene scene; // empty when a recorded G-buffer is given
     std::optional<RecordedGBuffer> recorded;
     TraceEffect effect = TraceEffect::kReflection;
     Material material;
     Projection projection;
-    std::vector<OutputInfo> outputs;            // all that is written: the expected ones and those of `outputs`
+    std::vector<OutputInfo> outputs; // all that is written: the expected ones and those of `outputs`
     std::vector<Expectation> expectations;
-    std::vector<std::string> backends;          // empty: all
+    std::vector<std::string> backends; // empty: all
     std::vector<KnownFailure> knownFailures;
-    bool mustFail = false;                      // passes when the judge fails it on every backend: proof of the ruler
+    bool mustFail = false; // passes when the judge fails it on every backend: proof of the ruler
     double timeoutSeconds = 20;
 };
 
 // Reads one file and expands its parameter lists. Throws InputError with file:line:column and what is allowed.
 std::vector<Case> readCaseFile(const std::filesystem::path& file);
 
-// Values for one key by its dotted name ("material.ior"), as `--set` and the inspector use. Throws InputError on an unknown key
-// or a value out of range.
-std::vector<Case> readCaseFile(const std::filesystem::path& file,
-                               const std::map<std::string, std::string>& overrides);
+// Values for one key by its dotted name ("material.ior"), as `--set` and the inspector use. Throws InputError on an
+// unknown key or a value out of range.
+std::vector<Case> readCaseFile(const std::filesystem::path& file, const std::map<std::string, std::string>& overrides);
 
-// Every *.toml below `root` in order of path.
+// Every *.toml below `root` in order of path, presets.toml left out; `root` itself when it is a file.
 std::vector<std::filesystem::path> findCaseFiles(const std::filesystem::path& root);
+
+// Throws InputError when two cases bear one name.
+void requireUniqueNames(std::span<const Case> cases);
 
 // One key of the format; the schema is the parser's own table.
 struct CaseKey {
-    std::string table;       // "" for the top level, "scene", "expect", ...
+    std::string table; // "" for the top level, "scene", "expect", ...
     std::string key;
     std::string type;        // "string", "number", "integer", "boolean", "vec3", "list of string", ...
     std::string allowed;     // range or choices, in words

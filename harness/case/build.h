@@ -1,0 +1,32 @@
+// From a checked tree of values to the parts of a Case. What single keys cannot say is checked here: how keys fit
+// together.
+#pragma once
+
+#include "harness/case/case.h"
+#include "harness/case/schema.h"
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace crossray {
+
+// Looks up [tolerance.NAME] of presets.toml; throws InputError at the place that names it.
+using ToleranceLookup = std::function<const Node&(const Node& name)>;
+
+void buildScene(const TableReader& top, Case& testCase);
+void buildCamera(const TableReader& top, Case& testCase);
+void buildRecorded(const TableReader& top, Case& testCase);
+void buildMaterial(const TableReader& top, Case& testCase);
+void buildProjection(const TableReader& top, Case& testCase);
+void buildExpectations(const Node& root, const ToleranceLookup& findTolerance, Case& testCase);
+void buildKnownFailures(const Node& root, Case& testCase);
+
+// Of a value that is Euler degrees [x, y, z], applied about the fixed x axis, then y, then z, or { axis, degrees }.
+glm::dmat3 buildRotation(const Node& value);
+glm::dvec3 readVec3(const TableReader& table, std::string_view key);
+
+// A path that a case names: relative, and inside the folder of the case, also after links are followed.
+std::filesystem::path resolveInside(const Case& testCase, const Node& path, std::string_view key, bool mustExist);
+
+} // namespace crossray

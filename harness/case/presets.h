@@ -1,0 +1,19 @@
+// presets.toml: what cases share by name. [tolerance.NAME] holds the keys of an expectation's tolerance; [preset.NAME]
+// holds keys of a case and is laid under each case that names it in `use`.
+#pragma once
+
+#include "harness/case/node.h"
+
+#include <filesystem>
+#include <memory>
+
+namespace crossray {
+
+// The presets of the nearest folder, from `folder` upwards, that holds a presets.toml; null when none does. Read once
+// and again when the file changes. Throws InputError.
+std::shared_ptr<const Node> findPresets(const std::filesystem::path& folder);
+
+// A named table of the presets ("preset" or "tolerance"); throws InputError at `name` when it is not there.
+const Node& findPreset(const Node* presets, std::string_view kind, const Node& name);
+
+} // namespace crossray

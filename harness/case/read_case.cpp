@@ -1,0 +1,284 @@
+// From a file to its cases: presets under it, overrides over it, parameter lists multiplied out, each result checked
+// and built.
+#include "harness/case/case.h"
+
+#include "harness/case/build.h"
+#include "harness/case/presets.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+namespace crossray {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr size_t kMostSubCases = 4096;
+
+// One key of [expand] with its values.
+struct Parameter {
+    std::string path;
+    Place keyPlace;
+    std::vector<Node> values;
+};
+
+bool isNameCharacter(char c)
+{
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+}
+
+bool isCaseName(std::string_view name)
+{
+    bool wordStarts = true;
+    for (const char c : name) {
+        if (c == '/' ? wordStarts : !isNameCharacter(c)) return false;
+        wordStarts = c == '/';
+    }
+    return !name.empty() && !wordStarts;
+}
+
+bool isTag(std::string_view tag)
+{
+    return std::all_of(tag.begin(), tag.end(), [](char c) { return isNameCharacter(c) || c == '-'; }) && !tag.empty();
+}
+
+// Dotted keys in TOML are tables in tables: whatever is no table is a list of values.
+void collectParameters(const Node& table, const std::string& prefix, std::vector<Parameter>& parameters)
+{
+    for (const NodeEntry& entry : table.entries) {
+        const std::string path = prefix.empty() ? entry.key : prefix + "." + entry.key;
+        const Node& value = entry.value;
+        if (value.kind == NodeKind::kTable) {
+            collectParameters(value, path, parameters);
+            continue;
+        }
+        if (value.kind != NodeKind::kList || value.items.empty()) {
+            throw InputError(value.place.position(),
+                             fmt::format("\"{}\" of [expand] is {}; a list of one value or more is allowed", path,
+                                         value.kind == NodeKind::kList ? "an empty list" : describeKind(value.kind)));
+        }
+        const std::string root = path.substr(0, path.find('.'));
+        for (const std::string_view own : {"schema", "name", "use", "expand"}) {
+            if (root == own)
+                throw InputError(entry.keyPlace.position(), fmt::format("\"{}\" cannot be expanded", path));
+        }
+        parameters.push_back({path, entry.keyPlace, value.items});
+    }
+}
+
+std::vector<Parameter> takeParameters(Node& root)
+{
+    const Node* expand = root.find("expand");
+    if (!expand) return {};
+    if (expand->kind != NodeKind::kTable) {
+        throw InputError(expand->place.position(),
+                         fmt::format("\"expand\" is {}; a table is allowed", describeKind(expand->kind)));
+    }
+    std::vector<Parameter> parameters;
+    collectParameters(*expand, "", parameters);
+    size_t product = 1;
+    for (const Parameter& parameter : parameters) {
+        product *= parameter.values.size();
+        if (product > kMostSubCases) {
+            throw InputError(
+                parameter.keyPlace.position(),
+                fmt::format("[expand] makes more than {} sub-cases; at most that many are allowed", kMostSubCases));
+        }
+    }
+    root.erase("expand");
+    return parameters;
+}
+
+// The last part of the path, or the whole path where two parameters end alike.
+std::string labelOf(const Parameter& parameter, const std::vector<Parameter>& all)
+{
+    const auto last = [](const std::string& path) { return path.substr(path.rfind('.') + 1); };
+    const std::string label = last(parameter.path);
+    const auto same = std::count_if(all.begin(), all.end(), [&](const Parameter& p) { return last(p.path) == label; });
+    return same > 1 ? parameter.path : label;
+}
+
+// Lays the presets that the file names under it; of two that set one key the later wins.
+void applyPresets(Node& root, const Node* presets)
+{
+    const Node* use = root.find("use");
+    if (!use) return;
+    const std::vector<Node> names = use->items;
+    for (auto name = names.rbegin(); name != names.rend(); ++name) {
+        if (name->kind != NodeKind::kString) {
+            throw InputError(name->place.position(),
+                             fmt::format("\"use\" holds {}; names are allowed", describeKind(name->kind)));
+        }
+        mergeUnder(root, findPreset(presets, "preset", *name));
+    }
+}
+
+// A value as it would stand in the file; what is not TOML is a string, so that `--set projection.model=hiz` needs no
+// quotes.
+Node parseOverride(const std::string& path, const std::string& text)
+{
+    const std::string fileName = "--set " + path;
+    try {
+        const Node root = parseToml("value = " + text, fileName);
+        if (root.entries.size() == 1) {
+            Node value = root.entries.front().value;
+            value.place.line = value.place.column = 0;
+            return value;
+        }
+    } catch (const InputError& error) {
+        const std::string message = std::string(error.what()).substr(error.position().format().size() + 2);
+        if (!message.starts_with("not valid TOML")) throw InputError({fileName}, message);
+    }
+    Node value;
+    value.kind = NodeKind::kString;
+    value.text = text;
+    value.place.file = std::make_shared<const std::string>(fileName);
+    return value;
+}
+
+void buildTop(const TableReader& top, Case& testCase)
+{
+    testCase.name = top.text("name");
+    if (!isCaseName(testCase.name)) {
+        throw InputError(
+            top.position("name"),
+            fmt::format("\"name\" is \"{}\"; words of a-z, 0-9 and _, joined by /, are allowed", testCase.name));
+    }
+    testCase.summary = top.text("summary");
+    testCase.tags = top.texts("tags");
+    for (const Node& tag : top.find("tags")->items) {
+        if (!isTag(tag.text)) {
+            throw InputError(tag.place.position(),
+                             fmt::format("\"{}\" is no tag; a word of a-z, 0-9, _ and - is allowed", tag.text));
+        }
+    }
+    testCase.backends = top.texts("backends");
+    testCase.timeoutSeconds = top.number("timeout");
+    testCase.mustFail = top.boolean("must_fail");
+    if (top.has("scene") == top.has("gbuffer")) {
+        throw InputError(top.position(top.has("gbuffer") ? "gbuffer" : ""),
+                         top.has("gbuffer") ? "[scene] and [gbuffer] are both given; exactly one of them is allowed"
+                                            : "[scene] or [gbuffer] is missing; exactly one of them is required");
+    }
+}
+
+// All that is written, in id order: the expected outputs, those asked for, and those that masks and budgets read.
+void collectOutputs(const TableReader& top, Case& testCase)
+{
+    std::set<std::string, std::less<>> names;
+    for (std::string& name : top.texts("outputs"))
+        names.insert(std::move(name));
+    for (const Expectation& expectation : testCase.expectations) {
+        names.emplace(expectation.output.name);
+        const bool asksForHits = expectation.where == Where::kHits || expectation.where == Where::kAnswerableHits;
+        if (asksForHits || expectation.budget) names.emplace("HitSuccess");
+        if (expectation.budget) names.emplace("HitPositionSS");
+    }
+    for (const OutputInfo& output : allOutputs()) {
+        if (names.contains(output.name)) testCase.outputs.push_back(output);
+    }
+}
+
+Case buildCase(const Node& root, const fs::path& file, const Node* presets)
+{
+    checkTable(root, "");
+    Case testCase;
+    testCase.file = file;
+    testCase.position = {file.string(), 1, 1};
+    const TableReader top(&root, "");
+    buildTop(top, testCase);
+    buildMaterial(top, testCase);
+    buildProjection(top, testCase);
+    if (top.has("scene")) {
+        buildScene(top, testCase);
+        buildCamera(top, testCase);
+    } else {
+        buildRecorded(top, testCase);
+    }
+    buildExpectations(
+        root, [&](const Node& name) -> const Node& { return findPreset(presets, "tolerance", name); }, testCase);
+    buildKnownFailures(root, testCase);
+    collectOutputs(top, testCase);
+    return testCase;
+}
+
+// Every combination of the parameters' values, the first parameter slowest.
+std::vector<Case> buildProduct(const Node& root, const std::vector<Parameter>& parameters, const fs::path& file,
+                               const Node* presets)
+{
+    std::vector<Case> cases;
+    std::set<std::string> names;
+    std::vector<size_t> indices(parameters.size(), 0);
+    while (true) {
+        Node variant = root;
+        std::string label;
+        for (size_t i = 0; i < parameters.size(); ++i) {
+            const Node& value = parameters[i].values[indices[i]];
+            setByPath(variant, parameters[i].path, parameters[i].keyPlace, value);
+            label += fmt::format("{}{}={}", i == 0 ? "" : ",", labelOf(parameters[i], parameters), formatValue(value));
+        }
+        cases.push_back(buildCase(variant, file, presets));
+        if (!parameters.empty()) cases.back().name += "[" + label + "]";
+        if (!names.insert(cases.back().name).second) {
+            throw InputError(parameters.back().values[indices.back()].place.position(),
+                             fmt::format("[expand] makes \"{}\" twice; each name once is allowed", cases.back().name));
+        }
+        size_t i = parameters.size();
+        while (i > 0 && ++indices[i - 1] == parameters[i - 1].values.size())
+            indices[--i] = 0;
+        if (i == 0) return cases;
+    }
+}
+
+} // namespace
+
+std::vector<Case> readCaseFile(const fs::path& file)
+{
+    return readCaseFile(file, {});
+}
+
+std::vector<Case> readCaseFile(const fs::path& file, const std::map<std::string, std::string>& overrides)
+{
+    Node root = readTomlFile(file);
+    const std::shared_ptr<const Node> presets = findPresets(file.parent_path());
+    applyPresets(root, presets.get());
+    std::vector<Parameter> parameters = takeParameters(root);
+    for (const auto& [path, text] : overrides) {
+        const Node value = parseOverride(path, text);
+        setByPath(root, path, value.place, value);
+        std::erase_if(parameters, [&](const Parameter& parameter) { return parameter.path == path; });
+    }
+    return buildProduct(root, parameters, file, presets.get());
+}
+
+std::vector<fs::path> findCaseFiles(const fs::path& root)
+{
+    std::error_code error;
+    if (fs::is_regular_file(root, error)) return {root};
+    std::vector<fs::path> files;
+    for (fs::recursive_directory_iterator entry(root, error), end; !error && entry != end; entry.increment(error)) {
+        const fs::path& path = entry->path();
+        if (path.extension() == ".toml" && path.filename() != "presets.toml" && entry->is_regular_file())
+            files.push_back(path);
+    }
+    if (error) throw InputError({root.string()}, "the folder cannot be read: " + error.message());
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+void requireUniqueNames(std::span<const Case> cases)
+{
+    std::map<std::string_view, const Case*> first;
+    for (const Case& testCase : cases) {
+        const auto [other, isNew] = first.emplace(testCase.name, &testCase);
+        if (!isNew) {
+            throw InputError(testCase.position, fmt::format("the name \"{}\" is taken by {}; each name once is allowed",
+                                                            testCase.name, other->second->file.string()));
+        }
+    }
+}
+
+} // namespace crossray

@@ -1,0 +1,232 @@
+// The keys of the case format, table by table, in the order of docs/case-format.md.
+#include "harness/base/outputs.h"
+#include "harness/case/schema_key.h"
+
+#include <iterator>
+
+namespace crossray {
+
+namespace {
+
+using enum KeyType;
+
+std::vector<KeySpec> topKeys()
+{
+    return {
+        Key("", "schema", kInteger).atLeast(1).atMost(1).required().says("Version of this format."),
+        Key("", "name", kString)
+            .allowed("words of a-z, 0-9 and _, joined by /")
+            .required()
+            .says("Unique name of the case."),
+        Key("", "summary", kString)
+            .allowed("not empty")
+            .required()
+            .says("The claim that the case checks, as a sentence."),
+        Key("", "tags", kStringList)
+            .allowed("words of a-z, 0-9, _ and -")
+            .byDefault("[]")
+            .says("What `--tag` selects by."),
+        Key("", "use", kStringList)
+            .allowed("names of [preset.NAME]")
+            .byDefault("[]")
+            .says("Presets that are laid under the case; of two that set one key the later wins."),
+        Key("", "trace", kChoice)
+            .oneOf({"reflection", "refraction"})
+            .withoutIt("refraction where refraction_model is not \"none\", else reflection")
+            .says("The ray: mirrors trace reflection, glass traces refraction."),
+        Key("", "outputs", kChoiceList)
+            .oneOf(outputNames())
+            .byDefault("[]")
+            .says("Outputs to write beside the expected ones."),
+        Key("", "backends", kChoiceList)
+            .oneOf(backendNames())
+            .withoutIt("all")
+            .says("The only backends that run the case."),
+        Key("", "timeout", kNumber).above(0).atMost(600).byDefault("20").says("Seconds that one backend may take."),
+        Key("", "must_fail", kBoolean)
+            .byDefault("false")
+            .says("Passes when the judge fails the case on every backend."),
+        Key("", "camera", kTable).withoutIt("all defaults").says("The camera of an analytic scene."),
+        Key("", "scene", kTable).withoutIt("none; this or gbuffer is required").says("An analytic scene."),
+        Key("", "gbuffer", kTable).withoutIt("none; this or scene is required").says("A G-buffer of another renderer."),
+        Key("", "material", kTable).withoutIt("all defaults").says("The material of the traced pixels."),
+        Key("", "projection", kTable).withoutIt("all defaults").says("How the ray finds its hit."),
+        Key("", "expect", kTableList).required().says("What the outputs are held to."),
+        Key("", "expand", kTable)
+            .withoutIt("none")
+            .says("Parameter lists: one sub-case a value, or a combination of values."),
+        Key("", "known_failure", kTableList).byDefault("[]").says("Failures that are excused until a date."),
+    };
+}
+
+std::vector<KeySpec> cameraKeys()
+{
+    return {
+        Key("camera", "projection", kChoice)
+            .oneOf({"perspective", "orthographic"})
+            .byDefault("\"perspective\"")
+            .says("Kind of camera."),
+        Key("camera", "depth", kChoice)
+            .oneOf({"reversed", "standard", "infinite_reversed"})
+            .byDefault("\"reversed\"")
+            .says("Depth buffer: from 1 at the near plane to 0; from 0 there to 1; or from 1 there to 0 at infinity."),
+        Key("camera", "ndc_depth", kChoice)
+            .oneOf({"zero_to_one", "minus_one_to_one"})
+            .byDefault("\"zero_to_one\"")
+            .says("Range of z in normalised device coordinates."),
+        Key("camera", "eye", kVec3).byDefault("[0, 0, 0]").says("Position in world space, metres."),
+        Key("camera", "target", kVec3).byDefault("[0, 0, -1]").says("A point in the middle of the image; not the eye."),
+        Key("camera", "up", kVec3)
+            .byDefault("[0, 1, 0]")
+            .says("Direction that is up in the image; not along the view."),
+        Key("camera", "fov", kNumber)
+            .above(0)
+            .below(180)
+            .byDefault("60")
+            .says("Vertical field of view in degrees, perspective."),
+        Key("camera", "height", kNumber).above(0).byDefault("2").says("Metres from bottom to top, orthographic."),
+        Key("camera", "near", kNumber).above(0).byDefault("0.1").says("Distance of the near plane, metres."),
+        Key("camera", "far", kNumber)
+            .above(0)
+            .byDefault("100")
+            .says("Distance of the far plane, metres; beyond near; not read by infinite_reversed."),
+    };
+}
+
+std::vector<KeySpec> sceneKeys()
+{
+    return {
+        Key("scene", "size", kSize)
+            .atLeast(1)
+            .atMost(16384)
+            .byDefault("[64, 64]")
+            .says("Width and height of the image, pixels."),
+        Key("scene", "up", kVec3).byDefault("[0, 1, 0]").says("Direction of the sky's zenith."),
+        Key("scene", "primitives", kTableList).byDefault("[]").says("Primitives as inline tables."),
+        Key("scene", "primitive", kTableList)
+            .byDefault("[]")
+            .says("The same as [[scene.primitive]]; they follow those of primitives."),
+        Key("scene", "sky", kTable).withoutIt("all defaults").says("Radiance where no primitive is."),
+        Key("scene.sky", "zenith", kVec3).atLeast(0).byDefault("[0.25, 0.45, 0.85]").says("Straight up, linear RGB."),
+        Key("scene.sky", "horizon", kVec3).atLeast(0).byDefault("[0.75, 0.85, 0.95]").says("At a right angle to up."),
+        Key("scene.sky", "nadir", kVec3).atLeast(0).byDefault("[0.2, 0.18, 0.16]").says("Straight down."),
+        Key("scene.primitives", "shape", kChoice)
+            .oneOf({"plane", "sphere", "box"})
+            .required()
+            .says("A plane is the local x-y plane, its normal local +z."),
+        Key("scene.primitives", "center", kVec3).byDefault("[0, 0, 0]").says("Position, metres."),
+        Key("scene.primitives", "rotation", kRotation)
+            .withoutIt("none")
+            .says("World from local: Euler degrees [x, y, z], or { axis, degrees }."),
+        Key("scene.primitives", "normal", kVec3)
+            .withoutIt("[0, 0, 1]")
+            .says("Plane, in the place of a rotation: turns +z there the short way."),
+        Key("scene.primitives", "half_extents", kExtents)
+            .above(0)
+            .withoutIt("without bounds (plane); required (box)")
+            .says("Plane: local x and y; box: all three; metres."),
+        Key("scene.primitives", "radius", kNumber).above(0).withoutIt("required (sphere)").says("Sphere, metres."),
+        Key("scene.primitives", "pattern", kChoice)
+            .oneOf({"solid", "checker", "gradient"})
+            .byDefault("\"solid\"")
+            .says("Unlit radiance over the surface."),
+        Key("scene.primitives", "color", kVec3)
+            .atLeast(0)
+            .byDefault("[0.8, 0.8, 0.8]")
+            .says("Linear RGB; checker: even cells; gradient: the low end."),
+        Key("scene.primitives", "color_b", kVec3)
+            .atLeast(0)
+            .byDefault("[0.2, 0.2, 0.2]")
+            .says("Checker: odd cells; gradient: the high end."),
+        Key("scene.primitives", "cell_size", kNumber).above(0).byDefault("0.5").says("Checker: metres a cell."),
+        Key("scene.primitives", "axis", kChoice)
+            .oneOf({"x", "y", "z"})
+            .byDefault("\"y\"")
+            .says("Gradient: local axis that it runs along."),
+        Key("scene.primitives", "material", kChoice)
+            .oneOf({"diffuse", "mirror", "glass"})
+            .byDefault("\"diffuse\"")
+            .says("Reflection is traced by mirrors, refraction by glass."),
+        Key("scene.primitives", "ior", kNumber)
+            .above(0)
+            .atMost(10)
+            .withoutIt("that of [material]")
+            .says("Glass: index of refraction, for the truth alone."),
+        Key("scene.primitives", "object", kInteger)
+            .atLeast(0)
+            .atMost(65535)
+            .byDefault("0")
+            .says("Object index in the G-buffer; 0 numbers by order, from 1."),
+    };
+}
+
+std::vector<KeySpec> rotationKeys()
+{
+    return {
+        Key("rotation", "axis", kVec3).required().says("Axis; any length but 0."),
+        Key("rotation", "degrees", kNumber).required().says("Angle, counter-clockwise seen from the axis's tip."),
+    };
+}
+
+std::vector<KeySpec> gbufferKeys()
+{
+    const auto channel = [](std::string_view name, std::string_view meaning) {
+        return Key("gbuffer.channels", name, kStringList).withoutIt("Blender's name").says(meaning);
+    };
+    return {
+        Key("gbuffer", "file", kString).allowed("an EXR inside the case's folder").required().says("The channels."),
+        Key("gbuffer", "camera", kString)
+            .allowed("a JSON inside the case's folder")
+            .required()
+            .says("Camera and primitives."),
+        Key("gbuffer", "truth", kString)
+            .allowed("an EXR inside the case's folder")
+            .withoutIt("none")
+            .says("World position + 64 of what each pixel shows; 0 is nothing."),
+        Key("gbuffer", "object", kInteger)
+            .atLeast(1)
+            .atMost(65535)
+            .required()
+            .says("Object index of the pixels that trace."),
+        Key("gbuffer", "channels", kTable).withoutIt("Blender's multilayer names").says("Channel names in the EXR."),
+        channel("device_depth", "One channel, 0 to 1."),
+        channel("linear_depth", "One channel, metres along the view axis."),
+        channel("normal_ws", "Three channels, world space."),
+        channel("position_ws", "Three channels, world space, metres."),
+        channel("color", "Three channels, linear radiance."),
+        channel("object_index", "One channel, 0 where there is no surface."),
+    };
+}
+
+} // namespace
+
+std::vector<std::string> outputNames()
+{
+    std::vector<std::string> names;
+    for (const OutputInfo& info : allOutputs())
+        names.emplace_back(info.name);
+    return names;
+}
+
+const std::vector<std::string>& backendNames()
+{
+    static const std::vector<std::string> names{"lavapipe", "swiftshader", "osmesa", "softpipe",
+                                                "egl",      "cpu32",       "cpu64",  "vulkan:NAME"};
+    return names;
+}
+
+std::span<const KeySpec> keySpecs()
+{
+    static const std::vector<KeySpec> specs = [] {
+        std::vector<KeySpec> all;
+        for (auto* group : {topKeys, cameraKeys, sceneKeys, rotationKeys, gbufferKeys, materialKeys, projectionKeys,
+                            expectKeys, otherKeys}) {
+            std::vector<KeySpec> keys = group();
+            all.insert(all.end(), std::make_move_iterator(keys.begin()), std::make_move_iterator(keys.end()));
+        }
+        return all;
+    }();
+    return specs;
+}
+
+} // namespace crossray

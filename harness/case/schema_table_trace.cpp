@@ -1,0 +1,198 @@
+// What is traced and what it is held to: [material], [projection], [[expect]], [expand] and [[known_failure]].
+#include "harness/case/schema_key.h"
+
+namespace crossray {
+
+using enum KeyType;
+
+std::vector<KeySpec> materialKeys()
+{
+    return {
+        Key("material", "refraction_model", kChoice)
+            .oneOf({"none", "sphere", "box", "thin"})
+            .byDefault("\"none\"")
+            .says("Shape that the light is taken to cross; other than none it implies trace = \"refraction\"."),
+        Key("material", "ior", kNumber)
+            .above(0)
+            .atMost(10)
+            .byDefault("1.5")
+            .says("Index of refraction of the shader's material."),
+        Key("material", "thickness", kNumber)
+            .atLeast(0)
+            .atMost(1e4)
+            .byDefault("1.0")
+            .says("Sphere: the diameter; box: the slab; metres."),
+        Key("material", "thickness_multiplier", kNumber)
+            .atLeast(0)
+            .atMost(1e4)
+            .byDefault("1.0")
+            .says("Factor on the thickness."),
+        Key("material", "roughness", kNumber)
+            .atLeast(0)
+            .atMost(2)
+            .byDefault("0.0")
+            .says("Perceptual roughness; chooses the colour's mip level."),
+    };
+}
+
+std::vector<KeySpec> projectionKeys()
+{
+    return {
+        Key("projection", "model", kChoice)
+            .oneOf({"none", "proxy_infinite", "proxy_box", "proxy_sphere", "hiz"})
+            .byDefault("\"none\"")
+            .says("What the ray is projected on; none computes the ray alone."),
+        Key("projection", "proxy", kTable)
+            .withoutIt("required by proxy_box and proxy_sphere")
+            .says("The proxy volume."),
+        Key("projection", "min_level", kInteger)
+            .atLeast(0)
+            .atMost(14)
+            .byDefault("2")
+            .says("HiZ: finest pyramid level that the march reads."),
+        Key("projection", "max_level", kInteger)
+            .atLeast(0)
+            .atMost(14)
+            .byDefault("6")
+            .says("HiZ: coarsest level; not below min_level; beyond the pyramid's last it is the last."),
+        Key("projection", "max_iterations", kInteger)
+            .atLeast(1)
+            .atMost(65535)
+            .byDefault("32")
+            .says("HiZ: steps after which the answer is unknown."),
+        Key("projection", "depth_bias", kNumber)
+            .atLeast(0)
+            .atMost(1e6)
+            .byDefault("1.0")
+            .says("HiZ: thickness of what the depth buffer shows, metres."),
+        Key("projection", "screen_weight_distance", kNumber)
+            .atLeast(0)
+            .atMost(1)
+            .byDefault("0.1")
+            .says("Width of the fade at each border, as a share of the screen; 0 is no fade."),
+        Key("projection", "screen_weight_form", kChoice)
+            .oneOf({"linear", "smooth_2018", "smooth_today"})
+            .byDefault("\"smooth_2018\"")
+            .says("Linear ramp, smoothed ramp, or smoothed ramp of half the width."),
+        Key("projection.proxy", "center", kVec3).byDefault("[0, 0, 0]").says("World space, metres."),
+        Key("projection.proxy", "half_extents", kVec3)
+            .above(0)
+            .withoutIt("required by proxy_box")
+            .says("Along the proxy's own axes, metres."),
+        Key("projection.proxy", "radius", kNumber).above(0).withoutIt("required by proxy_sphere").says("Metres."),
+        Key("projection.proxy", "rotation", kRotation)
+            .withoutIt("none")
+            .says("World from proxy: Euler degrees [x, y, z], or { axis, degrees }."),
+    };
+}
+
+std::vector<KeySpec> expectKeys()
+{
+    return {
+        Key("expect", "output", kChoice).oneOf(outputNames()).required().says("The output that is held to something."),
+        Key("expect", "analytic", kString).withoutIt("one source is required").says("Source: a closed form, by name."),
+        Key("expect", "truth", kString)
+            .withoutIt("one source is required")
+            .says("Source: a quantity of the ray caster, or of the recorded truth."),
+        Key("expect", "constant", kConstant)
+            .allowed("a number a channel; HitSuccess: no_raycast, hit, miss, unknown")
+            .withoutIt("one source is required")
+            .says("Source: one value for every compared pixel."),
+        Key("expect", "golden", kString)
+            .allowed("an EXR inside the case's folder")
+            .withoutIt("one source is required")
+            .says("Source: a recorded file; `review --accept` alone writes it."),
+        Key("expect", "agree", kChoiceList)
+            .oneOf(backendNames())
+            .allowed("two names or more")
+            .withoutIt("one source is required")
+            .says("Source: these backends, each against the last."),
+        Key("expect", "tolerance", kTableOrPreset)
+            .withoutIt("required, but for HitSuccess and counts: exact")
+            .says("Bounds of a pixel's error; a name is [tolerance.NAME] of presets.toml."),
+        Key("expect", "budget", kTable)
+            .withoutIt("none")
+            .says("HitSuccess against the truth, by shares; replaces a pixel by pixel comparison."),
+        Key("expect", "where", kChoice)
+            .oneOf({"traced", "all", "answerable", "answerable_hits", "hits"})
+            .byDefault("\"traced\"")
+            .says("Pixels that are compared: those that trace; every one; those whose hit the screen could have known; "
+                  "of these or of all those that say hit."),
+        Key("expect", "backends", kChoiceList)
+            .oneOf(backendNames())
+            .withoutIt("all")
+            .says("The only backends that are held to it."),
+        Key("expect.tolerance", "degrees", kNumber)
+            .atLeast(0)
+            .atMost(180)
+            .withoutIt("no bound")
+            .says("Directions: angle between the two."),
+        Key("expect.tolerance", "relative", kNumber)
+            .atLeast(0)
+            .withoutIt("no bound")
+            .says("Share of the expected magnitude."),
+        Key("expect.tolerance", "absolute", kNumber)
+            .atLeast(0)
+            .withoutIt("no bound")
+            .says("Difference in the output's own unit."),
+        Key("expect.tolerance", "ulps", kNumber)
+            .atLeast(0)
+            .withoutIt("no bound")
+            .says("Units in the last place of a float."),
+        Key("expect.tolerance", "floor", kNumber)
+            .atLeast(0)
+            .byDefault("0.0")
+            .says("Magnitude below which both values count as zero."),
+        Key("expect.tolerance", "double", kBoolean).byDefault("false").says("Measures ulps in doubles."),
+        Key("expect.tolerance", "outliers", kNumber)
+            .atLeast(0)
+            .atMost(1)
+            .byDefault("0.0")
+            .says("Share of the compared pixels that may lie beyond the bounds; needs worst."),
+        Key("expect.tolerance", "worst", kNumber)
+            .atLeast(0)
+            .withoutIt("none")
+            .says("Bound of each outlier: degrees, relative error (depths), or absolute error; needs outliers."),
+        Key("expect.budget", "recall", kNumber)
+            .atLeast(0)
+            .atMost(1)
+            .withoutIt("no bound")
+            .says("Least share of the answerable rays whose hit is right."),
+        Key("expect.budget", "precision", kNumber)
+            .atLeast(0)
+            .atMost(1)
+            .withoutIt("no bound")
+            .says("Least share of the claimed hits that are right."),
+        Key("expect.budget", "false_hits", kNumber)
+            .atLeast(0)
+            .atMost(1)
+            .withoutIt("no bound")
+            .says("Largest share of the unanswerable rays that claim a hit."),
+        Key("expect.budget", "position_px", kNumber)
+            .above(0)
+            .byDefault("2.0")
+            .says("Distance on screen within which a hit is right."),
+    };
+}
+
+std::vector<KeySpec> otherKeys()
+{
+    return {
+        Key("expand", "TABLE.KEY", kExpansion)
+            .allowed("values of that key")
+            .withoutIt("none")
+            .says("Dotted path of a key, such as material.ior or scene.primitives.0.radius; several make the product."),
+        Key("known_failure", "backends", kChoiceList)
+            .oneOf(backendNames())
+            .withoutIt("all")
+            .says("Backends that may fail."),
+        Key("known_failure", "issue", kString).allowed("not empty").required().says("Link or number of the report."),
+        Key("known_failure", "until", kDate)
+            .allowed("YYYY-MM-DD")
+            .required()
+            .says("Last day on which the failure is excused."),
+        Key("known_failure", "reason", kString).allowed("not empty").required().says("Why it fails."),
+    };
+}
+
+} // namespace crossray
