@@ -23,6 +23,7 @@ struct ProgramSource {
     std::string key;                            // content hash: equal keys are equal programs
 };
 
+// Linear: between texels and between levels. Nearest: the nearest texel of the nearest level.
 enum class ImageFilter { kNearest, kLinear };
 
 // A 2D sampled image of 1 or 4 channels, 32-bit float on float devices, clamp to edge. Level 0 first; level l has size

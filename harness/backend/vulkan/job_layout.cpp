@@ -165,6 +165,10 @@ std::vector<const Binding*> matchBindings(const Job& job, const DispatchDesc& di
         if (const DescriptorKind kind = kindOf(job, *given); kind != wanted.kind)
             throw ShaderError(fmt::format("{}: binding {} ({}) wants {}, the job gives {}", entry, wanted.binding,
                                           wanted.name, nameOf(wanted.kind), nameOf(kind)));
+        if (wanted.kind == DescriptorKind::kUniformBuffer && job.buffers[given->index].bytes.size() < wanted.bytes)
+            throw ShaderError(fmt::format("{}: binding {} ({}) is a block of {} bytes, the job gives {}", entry,
+                                          wanted.binding, wanted.name, wanted.bytes,
+                                          job.buffers[given->index].bytes.size()));
         result.push_back(given);
     }
     return result;

@@ -25,7 +25,8 @@ struct JobLayout {
 JobLayout layOutJob(const Job& job, const VkPhysicalDeviceLimits& limits);
 
 // The resource of each binding of the program, in the order of interface.bindings. What the program does not use may be
-// given all the same. Throws ShaderError when a binding is missing, is given twice or is of another kind.
+// given all the same. Throws ShaderError when a binding is missing, is given twice, is of another kind or is a block
+// with too few bytes.
 std::vector<const Binding*> matchBindings(const Job& job, const DispatchDesc& dispatch,
                                           const SpirvInterface& interface);
 

@@ -46,9 +46,19 @@ enum Op : uint32_t {
     kOpArrayLength = 68,
     kOpInBoundsPtrAccessChain = 70,
     kOpDecorate = 71,
+    kOpMemberDecorate = 72,
     kOpCopyObject = 83,
 };
-enum Decoration : uint32_t { kBufferBlock = 3, kBuiltIn = 11, kBinding = 33, kDescriptorSet = 34 };
+enum Decoration : uint32_t {
+    kBufferBlock = 3,
+    kRowMajor = 4,
+    kArrayStride = 6,
+    kMatrixStride = 7,
+    kBuiltIn = 11,
+    kBinding = 33,
+    kDescriptorSet = 34,
+    kOffset = 35,
+};
 enum StorageClass : uint32_t {
     kUniformConstant = 0,
     kUniform = 2,
@@ -104,6 +114,8 @@ class Module {
     const Instruction& definition(uint32_t id) const;
     uint32_t constantValue(uint32_t id) const;
     uint64_t sizeOf(uint32_t type, int depth = 0) const;
+    uint64_t laidOutSize(uint32_t type, int depth = 0) const;
+    uint64_t laidOutMemberSize(uint32_t structType, uint32_t member, int depth) const;
     std::optional<uint32_t> decoration(uint32_t id, Decoration which) const;
     std::string nameOfId(uint32_t id) const;
     std::string nameOfVariable(const Variable& variable) const;
@@ -113,6 +125,7 @@ class Module {
 
     std::map<uint32_t, Instruction> definitions_; // types and constants by result id
     std::map<std::pair<uint32_t, uint32_t>, uint32_t> decorations_;
+    std::map<std::array<uint32_t, 3>, uint32_t> memberDecorations_; // by struct, member and decoration
     std::map<uint32_t, std::string> names_;
     std::vector<Variable> variables_;
     std::set<uint32_t> used_; // ids that stand where a function's code takes a pointer
@@ -151,6 +164,10 @@ void Module::read(const Instruction& instruction)
         decorations_[{instruction.at(1), instruction.at(2)}] = instruction.words.size() > 3 ? instruction.at(3) : 0;
         if (instruction.at(2) == kBuiltIn && instruction.at(3) == kBuiltInWorkgroupSize)
             workgroupSizeConstant_ = instruction.at(1);
+        break;
+    case kOpMemberDecorate:
+        memberDecorations_[{instruction.at(1), instruction.at(2), instruction.at(3)}] =
+            instruction.words.size() > 4 ? instruction.at(4) : 0;
         break;
     case kOpConstant:
     case kOpConstantComposite:
@@ -238,6 +255,40 @@ uint64_t Module::sizeOf(uint32_t type, int depth) const
     }
 }
 
+// Size of a type inside a block, by the offsets and strides that the code carries; a struct ends with its last member.
+uint64_t Module::laidOutSize(uint32_t type, int depth) const
+{
+    if (depth > 32) refuse("types are nested too deeply");
+    const Instruction& definition = this->definition(type);
+    if (definition.op == kOpTypeArray) {
+        const std::optional<uint32_t> stride = decoration(type, kArrayStride);
+        if (!stride) refuse(fmt::format("array type {} in a block has no stride", type));
+        return uint64_t{constantValue(definition.at(3))} * *stride;
+    }
+    if (definition.op != kOpTypeStruct) return sizeOf(type, depth);
+    uint64_t end = 0;
+    for (uint32_t member = 0; member + 2 < definition.words.size(); ++member) {
+        const auto offset = memberDecorations_.find({type, member, kOffset});
+        if (offset == memberDecorations_.end())
+            refuse(fmt::format("member {} of block {} has no offset", member, type));
+        end = std::max(end, offset->second + laidOutMemberSize(type, member, depth + 1));
+    }
+    return end;
+}
+
+// A matrix takes its stride from the member that it is, or is an array of.
+uint64_t Module::laidOutMemberSize(uint32_t structType, uint32_t member, int depth) const
+{
+    const uint32_t type = definition(structType).at(member + 2);
+    const Instruction& definition = this->definition(type);
+    if (definition.op != kOpTypeMatrix) return laidOutSize(type, depth);
+    const auto stride = memberDecorations_.find({structType, member, kMatrixStride});
+    if (stride == memberDecorations_.end()) refuse(fmt::format("a matrix in block {} has no stride", structType));
+    const bool rowMajor = memberDecorations_.contains({structType, member, kRowMajor});
+    const uint32_t rows = this->definition(definition.at(2)).at(3);
+    return uint64_t{rowMajor ? rows : definition.at(3)} * stride->second;
+}
+
 std::optional<uint32_t> Module::decoration(uint32_t id, Decoration which) const
 {
     const auto found = decorations_.find({id, which});
@@ -306,7 +357,9 @@ SpirvInterface Module::describe() const
         if (!binding) refuse(fmt::format("\"{}\" has no layout(binding = N)", name));
         if (const uint32_t set = decoration(variable.id, kDescriptorSet).value_or(0); set != 0)
             refuse(fmt::format("\"{}\" is in descriptor set {}; only set 0 is used", name, set));
-        const SpirvBinding described{*binding, kindOf(variable), name};
+        SpirvBinding described{*binding, kindOf(variable), name};
+        if (described.kind == DescriptorKind::kUniformBuffer)
+            described.bytes = laidOutSize(definition(variable.pointerType).at(3));
         const auto [existing, inserted] = bindings.emplace(*binding, described);
         if (!inserted)
             refuse(fmt::format("\"{}\" and \"{}\" are both at binding {}", existing->second.name, name, *binding));

@@ -17,7 +17,8 @@ std::string_view nameOf(DescriptorKind kind); // "a sampled image", "a uniform b
 struct SpirvBinding {
     uint32_t binding = 0;
     DescriptorKind kind = DescriptorKind::kStorageBuffer;
-    std::string name; // of the variable or its block; "" when the code carries no names
+    std::string name;   // of the variable or its block; "" when the code carries no names
+    uint64_t bytes = 0; // uniform buffers: the end of the block's last member by the offsets in the code; else 0
 };
 
 struct SpirvInterface {

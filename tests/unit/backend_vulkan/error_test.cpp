@@ -2,6 +2,8 @@
 
 #include "harness/base/error.h"
 
+#include <array>
+
 using namespace crossray;
 using namespace crossray::test;
 
@@ -58,6 +60,20 @@ TEST_P(VulkanErrorTest, aBindingOfAnotherKindIsNamed)
     job.buffers.push_back(makeUniform(1.0f));
     job.dispatches[0].bindings = {bindBuffer(0, 1)};
     expectRefused<ShaderError>(job, {"fill", "binding 0", "wants a storage buffer", "gives a uniform buffer"});
+}
+
+TEST_P(VulkanErrorTest, aBlockWithTooFewBytesIsNamedInNumbers)
+{
+    constexpr const char* kBlock = R"(
+layout(local_size_x = 1) in;
+layout(binding = 0) writeonly buffer Out { float values[]; };
+layout(binding = 1) uniform Params { vec4 a[4]; float last; };
+void main() { values[0] = a[3].x + last; }
+)";
+    Job job = makeJob("block", kBlock, 1, 1);
+    job.buffers.push_back(makeUniform(std::array<float, 16>{}));
+    job.dispatches[0].bindings.push_back(bindBuffer(1, 1));
+    expectRefused<ShaderError>(job, {"block", "binding 1 (Params)", "68", "64"});
 }
 
 TEST_P(VulkanErrorTest, whatIsNoSpirvIsRefused)

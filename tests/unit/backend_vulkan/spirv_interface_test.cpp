@@ -63,6 +63,25 @@ TEST(SpirvInterface, readsAGroupSizeFromConstants)
     EXPECT_EQ(interface.localSize, (std::array<uint32_t, 3>{1, 3, 1}));
 }
 
+// std140 by hand: a matrix takes a vec4 a column, an array element a multiple of 16 bytes, a vec3 leaves room for one
+// float.
+TEST(SpirvInterface, measuresUniformBlocks)
+{
+    const auto measure = [](const std::string& members, const std::string& use) {
+        const SpirvInterface interface = readGlsl("struct Inner { vec3 p; float q; mat3 m; };"
+                                                  "layout(binding = 0) buffer Out { float result; };"
+                                                  "layout(binding = 1) uniform Block { " +
+                                                  members + " } block; void main() { result = float(" + use + "); }");
+        return interface.bindings.at(1).bytes;
+    };
+    EXPECT_EQ(measure("float a;", "block.a"), 4u);
+    EXPECT_EQ(measure("vec3 a; float b;", "block.b"), 16u);
+    EXPECT_EQ(measure("float a; mat4 b; int c;", "block.c"), 84u);
+    EXPECT_EQ(measure("layout(row_major) mat2x4 a;", "block.a[0].x"), 64u);
+    EXPECT_EQ(measure("float a[5];", "block.a[1]"), 80u);
+    EXPECT_EQ(measure("int n; Inner inner[3]; vec2 last;", "block.n"), 16u + 3 * 64u + 8u);
+}
+
 TEST(SpirvInterface, refusesWhatTheDevicesDoNotOffer)
 {
     expectRefused(
