@@ -2,7 +2,8 @@
 crossray_module(base PACKAGES glm::glm)
 crossray_module(scene USES base PACKAGES PkgConfig::OpenEXR nlohmann_json::nlohmann_json)
 crossray_module(compile USES base
-                PACKAGES glslang SPIRV glslang-default-resource-limits SPIRV-Tools-opt SPIRV-Tools spirv-cross-c-shared)
+                PACKAGES SPIRV glslang MachineIndependent GenericCodeGen OSDependent OGLCompiler
+                         glslang-default-resource-limits SPIRV-Tools-opt SPIRV-Tools spirv-cross-c-shared)
 crossray_module(backend USES base)
 crossray_module(backend/cpu USES base)
 crossray_module(backend/vulkan USES base PACKAGES Vulkan::Vulkan)

@@ -1,0 +1,32 @@
+// What this project reads from a SPIR-V module by itself.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace crossray {
+
+enum class SpecializationType { kBool, kInt, kUint, kFloat, kDouble };
+
+struct SpecializationConstant {
+    std::string name; // OpName: the name in the source
+    uint32_t specId = 0;
+    SpecializationType type = SpecializationType::kInt;
+    double defaultValue = 0;
+};
+
+// All functions throw ShaderError on a module whose instructions do not add up.
+std::vector<SpecializationConstant> findSpecializationConstants(const std::vector<uint32_t>& spirv);
+// Of the first entry point; {1, 1, 1} for a stage that has none. A size that hangs on specialization constants is read
+// from their current defaults.
+std::array<uint32_t, 3> findLocalSize(const std::vector<uint32_t>& spirv);
+// Writes the size into the execution mode: the optimiser takes the constant that overrides it for dead.
+void setLocalSize(std::vector<uint32_t>& spirv, const std::array<uint32_t, 3>& size);
+size_t countSpirvInstructions(const std::vector<uint32_t>& spirv);
+
+// The words of a constant of the given type. Throws InputError that says what is allowed when the value does not fit.
+std::vector<uint32_t> encodeConstant(const SpecializationConstant& constant, double value);
+
+} // namespace crossray
