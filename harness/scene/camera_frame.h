@@ -57,6 +57,13 @@ class CameraFrame {
         return point;
     }
 
+    // Inside the image and between the near and the far plane: where a depth buffer could hold the point.
+    bool covers(const ScreenPoint& point) const
+    {
+        return point.onScreen && point.linearDepth >= camera_.nearDistance &&
+               (camera_.depthConvention == DepthConvention::kInfiniteReversed || point.linearDepth <= camera_.farDistance);
+    }
+
   private:
     // From the view axis to the image point: metres (orthographic), or metres at a linear depth of 1 m (perspective).
     glm::dvec3 offset(const glm::dvec2& positionSS) const

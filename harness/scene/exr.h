@@ -1,5 +1,7 @@
-// OpenEXR files as planes: multi-part, 32-bit float, one part a plane; part name = plane name, channels "R","G","B" for 3,
-// "Y" for 1, "X","Y" for 2, "R","G","B","A" for 4.
+// OpenEXR files as planes: multi-part, 32-bit float, one part a plane; part name = plane name, channels "Y" for 1,
+// "X","Y" for 2, "R","G","B" for 3, "R","G","B","A" for 4. Readers trust nothing: the header's sizes are checked
+// against these bounds before any image is allocated, and every complaint is an InputError that begins with the file's
+// name.
 #pragma once
 
 #include "harness/base/plane.h"
@@ -12,13 +14,21 @@
 
 namespace crossray {
 
-// Writes beside the target and renames, so that a file is whole or absent. Values are rounded to float.
+inline constexpr int kMaxExrSide = 16384;           // pixels
+inline constexpr int kMaxExrChannels = 64;          // of all parts together
+inline constexpr long long kMaxExrValues = 1 << 28; // pixels times channels, of all parts together
+
+// Writes beside the target and renames, so that a file is whole or absent. Values are rounded to float. The attributes
+// are strings of the first part. Throws InputError on planes that cannot be a file (no plane, equal names, a shape
+// beyond the bounds, 5 channels) and EnvironmentError when the folder cannot be written.
 void writeExr(const std::filesystem::path& file, std::span<const Plane> planes,
               const std::map<std::string, std::string>& attributes = {});
-// Planes of a file that writeExr wrote. Throws InputError (file: what is wrong) on a missing, truncated or foreign file.
+// Planes of a file that writeExr wrote, in its order. Throws InputError (file: what is wrong) on a missing, truncated
+// or foreign file.
 std::vector<Plane> readExr(const std::filesystem::path& file);
-// Any EXR's channels by full name ("ViewLayer.Depth.Z"), each as a one-channel plane; half and uint become doubles. Bounded to
-// 16384 pixels a side and 64 channels; throws InputError beyond.
+// Any flat scan-line EXR's channels by full name, each as a one-channel plane: the channel's own name
+// ("ViewLayer.Depth.Z"), behind the part's name and a dot where the file has several parts ("Color.R"). Half and uint
+// become doubles. Throws InputError as readExr.
 std::map<std::string, Plane> readExrChannels(const std::filesystem::path& file);
 
 } // namespace crossray

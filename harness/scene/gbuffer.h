@@ -35,20 +35,28 @@ struct GBuffer {
 // its far plane are cut away, as a rasteriser does. Throws InputError on an invalid camera or scene.
 GBuffer renderGBuffer(const Scene& scene, const Camera& camera, std::span<const GBufferChannel> channels);
 
-// How to find the channels in another renderer's EXR: our channel -> "layer.channel" names in order. Blender's multilayer names
-// (ViewLayer.Depth.Z and so on) are the default and need no map.
+// How to find the channels in another renderer's EXR: our channel -> "layer.channel" names in order.
 using ChannelMap = std::map<GBufferChannel, std::vector<std::string>>;
+// Blender's multilayer names (ViewLayer.Depth.Z and so on): the default, a data set from Blender needs no map.
 ChannelMap blenderChannelMap();
+// The names that writeGBuffer gives: part name and channel ("NormalWS.R").
+ChannelMap crossrayChannelMap();
 
-// Reads an EXR and derives what it lacks and can be computed (device depth from linear depth, position from depth). Throws
-// InputError naming the file when it is truncated, has missing channels (named), another size than the camera's, or a header
-// beyond 16384 a side.
+// Reads an EXR's channels and computes what the file lacks and can be computed: device depth, linear depth and position, each from
+// either of the others. No surface is a linear depth of 1e10 and more (Blender) or of 0, or a cleared device depth; there the
+// planes hold their "no surface" value whatever the file says. A camera's device depths are clamped to [0,1].
+// Throws InputError naming the file when it is truncated, lacks channels (named), has another size than the camera's, a negative or
+// NaN depth, or a header beyond the bounds of exr.h.
 GBuffer readGBuffer(const std::filesystem::path& file, const Camera& camera, const ChannelMap& map,
                     std::span<const GBufferChannel> channels);
+// One part a plane, as exr.h describes.
 void writeGBuffer(const std::filesystem::path& file, const GBuffer& gbuffer);
 
-// camera.json of a recorded data set: "size", "camera" {fov_y_deg, near, far}, "camera_to_world_rows", and
-// optionally "primitives". Throws InputError with file and what is wrong.
+// camera.json of a recorded data set: "size", "camera" {fov_y_deg, near, far}, "camera_to_world_rows", and optionally "primitives"
+// (shape, center, half or radius, normal, color, material, ior). The camera is a perspective one with reversed depth in [0,1]; its
+// matrix, rounded to float in the file, is made orthonormal again. The world is Z up; a plane's first half extent is the
+// horizontal one (along x where the plane itself is horizontal). What the file does not tell is black: the sky, a colour.
+// Throws InputError with file and what is wrong.
 Camera readCameraJson(const std::filesystem::path& file);
 Scene readSceneJson(const std::filesystem::path& file);
 

@@ -1,0 +1,216 @@
+#include "harness/scene/exr.h"
+
+#include "harness/base/error.h"
+#include "harness/scene/file_io.h"
+#include "harness/scene/random_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <string>
+
+#include <unistd.h>
+
+using namespace crossray;
+
+namespace {
+
+class Exr : public testing::Test {
+  protected:
+    Exr()
+    {
+        folder_ = std::filesystem::temp_directory_path() / ("crossray_exr_" + std::to_string(::getpid()));
+        std::filesystem::create_directories(folder_);
+    }
+    ~Exr() override { std::filesystem::remove_all(folder_); }
+
+    std::string messageOf(const std::string& bytes) const
+    {
+        const std::filesystem::path file = folder_ / "hostile.exr";
+        writeWholeFile(file, bytes);
+        try {
+            (void)readExrChannels(file);
+        } catch (const InputError& error) {
+            const std::string message = error.what();
+            EXPECT_EQ(message.rfind(file.string() + ": ", 0), 0U) << message;
+            EXPECT_NE(message.find("allowed:"), std::string::npos) << message;
+            EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+            return message;
+        }
+        return "";
+    }
+
+    std::filesystem::path folder_;
+};
+
+Plane makeNoise(const std::string& name, int width, int height, int channels)
+{
+    Plane plane(name, width, height, channels);
+    RandomStream random(static_cast<uint64_t>(channels));
+    for (double& value : plane.values)
+        value = static_cast<float>(random.next(-100.0, 100.0));
+    return plane;
+}
+
+std::string sampleFile(const std::filesystem::path& folder)
+{
+    const std::vector<Plane> planes = {makeNoise("Color", 20, 30, 3), makeNoise("HitDepth", 20, 30, 1)};
+    writeExr(folder / "sample.exr", planes);
+    return readWholeFile(folder / "sample.exr");
+}
+
+void putInteger(std::string& bytes, size_t at, int32_t value)
+{
+    for (size_t i = 0; i < 4; ++i)
+        bytes[at + i] = static_cast<char>((static_cast<uint32_t>(value) >> (8 * i)) & 0xff);
+}
+
+// Where the value of an attribute begins.
+size_t valueOf(const std::string& bytes, const std::string& name, const std::string& type)
+{
+    const std::string key = name + '\0' + type + '\0';
+    const size_t at = bytes.find(key);
+    EXPECT_NE(at, std::string::npos);
+    return at + key.size() + 4;
+}
+
+void expectSame(const Plane& actual, const Plane& expected)
+{
+    EXPECT_EQ(actual.name, expected.name);
+    ASSERT_TRUE(actual.sameShape(expected));
+    for (size_t i = 0; i < actual.values.size(); ++i) {
+        if (std::isnan(expected.values[i]))
+            ASSERT_TRUE(std::isnan(actual.values[i]));
+        else
+            ASSERT_EQ(actual.values[i], expected.values[i]);
+    }
+}
+
+} // namespace
+
+TEST_F(Exr, RoundTripOfAllShapes)
+{
+    std::vector<Plane> planes = {makeNoise("Zed", 7, 5, 1), makeNoise("Color", 7, 5, 3),
+                                 makeNoise("PositionNDC", 7, 5, 2), makeNoise("All", 16, 3, 4),
+                                 makeNoise("Pixel", 1, 1, 1)};
+    planes[0].values[3] = std::numeric_limits<double>::quiet_NaN();
+    planes[0].values[4] = -std::numeric_limits<double>::infinity();
+    planes[0].values[5] = std::numeric_limits<float>::denorm_min();
+    writeExr(folder_ / "a.exr", planes, {{"fingerprint", "driver 1.2"}});
+    const std::vector<Plane> back = readExr(folder_ / "a.exr");
+    ASSERT_EQ(back.size(), planes.size());
+    for (size_t i = 0; i < planes.size(); ++i)
+        expectSame(back[i], planes[i]);
+    EXPECT_NE(readWholeFile(folder_ / "a.exr").find("driver 1.2"), std::string::npos);
+    const auto channels = readExrChannels(folder_ / "a.exr");
+    EXPECT_EQ(channels.size(), 11U);
+    EXPECT_EQ(channels.at("Color.G").at(6, 4), planes[1].at(6, 4, 1));
+    size_t files = 0;
+    for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder_))
+        ++files;
+    EXPECT_EQ(files, 1U); // nothing is left beside it
+}
+
+TEST_F(Exr, OnePlaneIsAFileToo)
+{
+    const std::vector<Plane> planes = {makeNoise("HitDepth", 64, 64, 1)};
+    writeExr(folder_ / "one.exr", planes);
+    const std::vector<Plane> back = readExr(folder_ / "one.exr");
+    ASSERT_EQ(back.size(), 1U);
+    expectSame(back[0], planes[0]);
+}
+
+TEST_F(Exr, ValuesAreRoundedToFloat)
+{
+    std::vector<Plane> planes = {Plane("A", 2, 1, 1)};
+    planes[0].values = {0.1, 1e300};
+    writeExr(folder_ / "a.exr", planes);
+    EXPECT_EQ(readExr(folder_ / "a.exr")[0].values[0], static_cast<double>(0.1F));
+    EXPECT_EQ(readExr(folder_ / "a.exr")[0].values[1], std::numeric_limits<double>::infinity());
+}
+
+TEST_F(Exr, WriterRejectsWhatIsNoImage)
+{
+    const std::filesystem::path file = folder_ / "a.exr";
+    EXPECT_THROW(writeExr(file, {}), InputError);
+    EXPECT_THROW(writeExr(file, std::vector<Plane>{Plane("A", 2, 2, 5)}), InputError);
+    EXPECT_THROW(writeExr(file, std::vector<Plane>{Plane("A", 0, 2, 1)}), InputError);
+    EXPECT_THROW(writeExr(file, std::vector<Plane>{Plane("A", 2, 2, 1), Plane("A", 2, 2, 1)}), InputError);
+    EXPECT_THROW(writeExr(file, std::vector<Plane>{Plane("A", 2, 2, 1)}, {{"channels", "mine"}}), InputError);
+    EXPECT_THROW(writeExr(folder_ / "no" / "folder" / "a.exr", std::vector<Plane>{Plane("A", 2, 2, 1)}),
+                 EnvironmentError);
+    EXPECT_TRUE(std::filesystem::is_empty(folder_));
+}
+
+TEST_F(Exr, SaysWhatIsWrongWithAFile)
+{
+    const std::string good = sampleFile(folder_);
+    EXPECT_EQ(messageOf(good), "");
+    EXPECT_NE(messageOf("").find("not an OpenEXR file"), std::string::npos);
+    EXPECT_NE(messageOf("{\"a\": 1, \"b\": [1, 2, 3]}").find("not an OpenEXR file"), std::string::npos);
+    EXPECT_NE(messageOf(good.substr(0, 100)).find("truncated inside its header"), std::string::npos);
+    EXPECT_NE(messageOf(good.substr(0, good.size() / 2)).find("truncated"), std::string::npos);
+    EXPECT_THROW(readExrChannels(folder_ / "missing.exr"), InputError);
+    EXPECT_THROW(readExrChannels(folder_), InputError);
+}
+
+TEST_F(Exr, HugeHeadersAreRejectedBeforeAnythingIsAllocated)
+{
+    const std::string good = sampleFile(folder_);
+    const size_t window = valueOf(good, "dataWindow", "box2i");
+    const auto withWindow = [&](int32_t x0, int32_t y0, int32_t x1, int32_t y1) {
+        std::string bytes = good;
+        putInteger(bytes, window, x0);
+        putInteger(bytes, window + 4, y0);
+        putInteger(bytes, window + 8, x1);
+        putInteger(bytes, window + 12, y1);
+        return messageOf(bytes);
+    };
+    EXPECT_NE(withWindow(0, 0, 2000000000, 2000000000).find("2000000001x2000000001"), std::string::npos);
+    EXPECT_NE(withWindow(-2147483647 - 1, 0, 2147483647, 10).find("4294967296x11"), std::string::npos);
+    EXPECT_NE(withWindow(0, 0, 39999, 39999).find("allowed: 1 to 16384 a side"), std::string::npos);
+    EXPECT_NE(withWindow(5, 5, 4, 10).find("0x6"), std::string::npos);
+    EXPECT_NE(withWindow(0, 0, 16383, 16383).find("values"), std::string::npos);
+    EXPECT_NE(withWindow(0, 0, 4095, 4095).find("cannot hold"), std::string::npos);
+    std::string bytes = good;
+    putInteger(bytes, window - 4, -1); // the attribute's own length
+    EXPECT_NE(messageOf(bytes).find("truncated inside its header"), std::string::npos);
+}
+
+TEST_F(Exr, EveryTruncationIsAnError)
+{
+    const std::string good = sampleFile(folder_);
+    for (size_t length = 0; length < good.size(); length += length < 900 ? 1 : 53)
+        EXPECT_NE(messageOf(good.substr(0, length)), "") << length;
+}
+
+// Damage is found or the values are others; nothing crashes, hangs or asks for gigabytes.
+TEST_F(Exr, DamagedBytesNeverCrash)
+{
+    const std::string good = sampleFile(folder_);
+    RandomStream random(9);
+    for (int i = 0; i < 1500; ++i) {
+        std::string bytes = good;
+        const int changes = 1 + static_cast<int>(random.nextBits() % 4);
+        for (int c = 0; c < changes; ++c) {
+            const size_t reach =
+                random.chance(0.7) ? std::min<size_t>(900, bytes.size()) : bytes.size(); // mostly the header
+            const size_t at = random.nextBits() % reach;
+            bytes[at] = static_cast<char>(random.nextBits() & 0xff);
+        }
+        (void)messageOf(bytes);
+    }
+}
+
+TEST_F(Exr, ForeignPartsAreNoPlanes)
+{
+    const std::filesystem::path blender =
+        std::filesystem::path(CROSSRAY_SOURCE_DIR) / "cases/real/data/mirror_room/gbuffer.exr";
+    EXPECT_THROW(readExr(blender), InputError);
+    const auto channels = readExrChannels(blender);
+    EXPECT_EQ(channels.size(), 12U);
+    EXPECT_EQ(channels.at("ViewLayer.Depth.Z").width, 320);
+    EXPECT_EQ(channels.at("ViewLayer.Depth.Z").height, 180);
+}
