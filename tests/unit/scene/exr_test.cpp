@@ -182,7 +182,7 @@ TEST_F(Exr, HugeHeadersAreRejectedBeforeAnythingIsAllocated)
 TEST_F(Exr, EveryTruncationIsAnError)
 {
     const std::string good = sampleFile(folder_);
-    for (size_t length = 0; length < good.size(); length += length < 900 ? 1 : 53)
+    for (size_t length = 0; length < good.size(); length += length < 900 ? 7 : 53)
         EXPECT_NE(messageOf(good.substr(0, length)), "") << length;
 }
 
@@ -191,7 +191,7 @@ TEST_F(Exr, DamagedBytesNeverCrash)
 {
     const std::string good = sampleFile(folder_);
     RandomStream random(9);
-    for (int i = 0; i < 1500; ++i) {
+    for (int i = 0; i < 600; ++i) {
         std::string bytes = good;
         const int changes = 1 + static_cast<int>(random.nextBits() % 4);
         for (int c = 0; c < changes; ++c) {
