@@ -1,0 +1,39 @@
+// The cases of the repository, as data: each can be read, bears its place as its name, and says something checkable.
+#include "harness/case/case.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+using namespace crossray;
+
+namespace {
+
+const std::filesystem::path kRoot = std::filesystem::path(CROSSRAY_SOURCE_DIR) / "cases";
+
+} // namespace
+
+TEST(CommittedCases, canAllBeReadUnderTheirOwnNames)
+{
+    std::vector<Case> cases;
+    for (const std::filesystem::path& file : findCaseFiles(kRoot)) {
+        std::vector<Case> own;
+        ASSERT_NO_THROW(own = readCaseFile(file)) << file;
+        const std::string place = std::filesystem::relative(file, kRoot).replace_extension().generic_string();
+        for (const Case& c : own)
+            EXPECT_EQ(c.name.substr(0, c.name.find('[')), place);
+        cases.insert(cases.end(), own.begin(), own.end());
+    }
+    EXPECT_NO_THROW(requireUniqueNames(cases));
+    EXPECT_GE(cases.size(), 40u);
+}
+
+TEST(CommittedCases, stateTheirClaimAndAreTagged)
+{
+    for (const std::filesystem::path& file : findCaseFiles(kRoot)) {
+        const Case c = readCaseFile(file).at(0);
+        EXPECT_TRUE(c.summary.ends_with('.')) << file;
+        EXPECT_FALSE(c.tags.empty()) << file;
+        EXPECT_EQ(c.mustFail, c.name.starts_with("must_fail/")) << file;
+    }
+}
