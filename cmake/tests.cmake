@@ -26,6 +26,13 @@ if(TARGET test_backend_gl)
   endforeach()
 endif()
 
+# The tests of the worker pool start workers whose device misbehaves on demand.
+if(TARGET test_run)
+  add_executable(worker_program tests/unit/run/worker_program.cpp)
+  target_link_libraries(worker_program PRIVATE crossray_run)
+  add_dependencies(test_run worker_program)
+endif()
+
 # The shader library as C++: the same tests once in float and once in double, and the same .glsl files that ship.
 file(GLOB shader_test_sources CONFIGURE_DEPENDS tests/shader/*_test.cpp)
 foreach(precision 32 64)

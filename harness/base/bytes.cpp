@@ -4,6 +4,13 @@
 
 namespace crossray {
 
+void ByteWriter::append(const void* data, size_t size)
+{
+    if (size == 0) return;
+    const auto* first = static_cast<const std::byte*>(data);
+    bytes_.insert(bytes_.end(), first, first + size);
+}
+
 void ByteWriter::putAsFloats(std::span<const double> values)
 {
     put<uint64_t>(values.size());

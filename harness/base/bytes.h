@@ -41,12 +41,7 @@ class ByteWriter {
     std::vector<std::byte> take() { return std::move(bytes_); }
 
   private:
-    void append(const void* data, size_t size)
-    {
-        if (size == 0) return;
-        const auto* first = static_cast<const std::byte*>(data);
-        bytes_.insert(bytes_.end(), first, first + size);
-    }
+    void append(const void* data, size_t size);
     std::vector<std::byte> bytes_;
 };
 

@@ -1,5 +1,6 @@
-// Worker processes: a driver and its environment are per process, so each backend runs in processes of its own, started once,
-// kept warm, pinned to a core, killed on a time-out and replaced after a crash, with the blame on the job that ran.
+// Worker processes: a driver and its environment are per process, so each backend runs in processes of its own, started
+// once, kept warm, pinned to a core, killed on a time-out and replaced after a crash, with the blame on the job that
+// ran.
 #pragma once
 
 #include "harness/backend/device.h"
@@ -14,20 +15,23 @@
 
 namespace crossray {
 
-// "lavapipe", "swiftshader", "osmesa", "softpipe", "egl", "cpu32", "cpu64", or "vulkan:NAME" for any other device by name.
+// "lavapipe", "swiftshader", "osmesa", "softpipe", "egl", "cpu32", "cpu64", or "vulkan:NAME" for any other device by
+// name.
 struct BackendInfo {
     std::string name;
-    std::string api;        // "Vulkan", "OpenGL", "none"
-    bool byDefault = true;  // part of a plain run where it is found
-    bool found = false;     // the libraries and ICD files are there (no device is opened to find out)
-    std::string missing;    // what to install, when it is not found
+    std::string api;       // "Vulkan", "OpenGL", "none"
+    bool byDefault = true; // part of a plain run where it is found
+    bool found = false;    // the libraries and ICD files are there (no device is opened to find out)
+    std::string missing;   // what to install, when it is not found
 };
 std::vector<BackendInfo> listBackends();
 
 struct WorkerOptions {
     bool validation = false;
-    std::filesystem::path mesaCacheFolder; // MESA_SHADER_CACHE_DIR of the workers
-    int cores = 1;                         // workers are pinned to cores 0..cores-1 of the process's own set
+    std::filesystem::path mesaCacheFolder;          // MESA_SHADER_CACHE_DIR of the workers
+    int cores = 1;                                  // workers are pinned to cores 0..cores-1 of the process's own set
+    std::filesystem::path executable;               // whose "worker" verb calls runWorker(); empty: this program
+    std::chrono::duration<double> startTimeout{60}; // a driver that takes longer to open is taken for hung
 };
 
 enum class JobOutcome { kDone, kShaderError, kEnvironmentError, kCrash, kTimeout };
@@ -47,9 +51,10 @@ class WorkerPool {
     ~WorkerPool(); // ends the workers
     // Blocks until a worker of the backend has answered, crashed or timed out. `core` chooses the worker.
     JobReport run(const std::string& backend, int core, const Job& job, std::chrono::duration<double> timeout);
-    // Starts a worker ahead of need; returns its device's fingerprint. Throws EnvironmentError when the device cannot be opened.
+    // Starts a worker ahead of need; returns its device's fingerprint. Throws EnvironmentError when the device cannot
+    // be opened.
     Fingerprint fingerprint(const std::string& backend, int core = 0);
-    // Process ids of live workers, for tests that kill one.
+    // Process ids of live workers. Killing one ends the job that it runs as a crash.
     std::vector<int> processIds(const std::string& backend) const;
     // Sum of the workers' peak resident memory so far, bytes.
     uint64_t peakMemory() const;
@@ -59,7 +64,8 @@ class WorkerPool {
     std::unique_ptr<Impl> impl_;
 };
 
-// main() of a worker process: reads jobs from `requestFd`, answers on `replyFd`, until the former closes. Returns the exit code.
+// main() of a worker process, of the verb `worker --backend NAME --request-fd N --reply-fd M [--validation]`: reads
+// jobs from `requestFd`, answers on `replyFd`, until the former closes. Returns the exit code.
 int runWorker(const std::string& backend, int requestFd, int replyFd, bool validation);
 
 // Opens a device in this process. Throws EnvironmentError.

@@ -1,0 +1,309 @@
+#include "harness/run/worker_pool.h"
+
+#include "harness/base/error.h"
+#include "harness/run/job_codec.h"
+#include "harness/run/worker_backends.h"
+#include "harness/run/worker_process.h"
+#include "harness/run/worker_server.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <mutex>
+#include <sched.h>
+#include <unistd.h>
+
+namespace crossray {
+
+using Clock = std::chrono::steady_clock;
+
+namespace {
+
+constexpr std::chrono::milliseconds kDeathGrace(2000); // for a process whose pipe has closed to be seen dead
+
+// The cores that this process may use.
+std::vector<int> ownCpus()
+{
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    std::vector<int> cpus;
+    if (::sched_getaffinity(0, sizeof(set), &set) != 0) return cpus;
+    for (int cpu = 0; cpu < CPU_SETSIZE; ++cpu) {
+        if (CPU_ISSET(static_cast<size_t>(cpu), &set)) cpus.push_back(cpu);
+    }
+    return cpus;
+}
+
+Clock::time_point deadlineAfter(std::chrono::duration<double> timeout)
+{
+    const double seconds = std::min(timeout.count(), 1e8); // within the clock's range
+    return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+}
+
+double millisecondsSince(Clock::time_point start)
+{
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+// One (backend, core) pair: the process, if one lives, and what it is known to hold.
+class Worker {
+  public:
+    Worker(WorkerCommand command, std::string backend, std::chrono::duration<double> startTimeout)
+        : command_(std::move(command)), backend_(std::move(backend)), startTimeout_(startTimeout)
+    {
+    }
+
+    JobReport run(const Job& job, std::chrono::duration<double> timeout);
+    Fingerprint open(); // throws EnvironmentError
+    void dismiss();
+    int processId();
+    uint64_t peakMemory();
+
+  private:
+    std::optional<JobReport> start(); // a report when it failed
+    JobReport exchangeJob(const Job& job, Clock::time_point deadline, double timeoutSeconds);
+    JobReport reportLoss(WorkerProcess::Answer answer, double timeoutSeconds);
+    void drop();
+
+    const WorkerCommand command_;
+    const std::string backend_;
+    const std::chrono::duration<double> startTimeout_;
+
+    std::mutex running_;      // held while a job runs
+    std::mutex processMutex_; // guards the pointer alone, so that process ids can be had while a job runs
+    std::unique_ptr<WorkerProcess> process_;
+    WorkerGreeting greeting_;
+    std::set<std::string> programs_; // keys whose code the process holds
+    std::optional<std::string> refusal_;
+    uint64_t peakMemory_ = 0; // of earlier processes
+};
+
+void Worker::drop()
+{
+    std::unique_ptr<WorkerProcess> dead;
+    const std::lock_guard lock(processMutex_);
+    if (process_) peakMemory_ = std::max(peakMemory_, process_->peakMemory());
+    dead = std::move(process_);
+    programs_.clear();
+}
+
+JobReport Worker::reportLoss(WorkerProcess::Answer answer, double timeoutSeconds)
+{
+    JobReport report;
+    switch (answer.end) {
+    case ExchangeEnd::kTimeout:
+        report.outcome = JobOutcome::kTimeout;
+        report.text = fmt::format("no answer within {:g} s", timeoutSeconds);
+        process_->kill(std::chrono::milliseconds(0));
+        break;
+    case ExchangeEnd::kGarbage:
+        report.outcome = JobOutcome::kCrash;
+        report.text = "the worker's answer is none: " + answer.text;
+        process_->kill(std::chrono::milliseconds(0));
+        break;
+    default:
+        report.outcome = JobOutcome::kCrash;
+        report.text = process_->kill(kDeathGrace);
+        break;
+    }
+    report.logLines = process_->log().lines();
+    drop();
+    return report;
+}
+
+std::optional<JobReport> Worker::start()
+{
+    if (process_ && process_->isAlive()) return std::nullopt;
+    drop(); // one that ended between jobs harmed none
+    if (refusal_) return JobReport{JobOutcome::kEnvironmentError, {}, *refusal_, {}, 0};
+    {
+        auto process = std::make_unique<WorkerProcess>(command_);
+        const std::lock_guard lock(processMutex_);
+        process_ = std::move(process);
+    }
+    WorkerProcess::Answer answer = process_->exchange(std::nullopt, {}, deadlineAfter(startTimeout_));
+    if (answer.end == ExchangeEnd::kAnswered && answer.frame.kind == FrameKind::kRefusal) {
+        refusal_ = answer.frame.text();
+        JobReport report{JobOutcome::kEnvironmentError, {}, *refusal_, process_->log().lines(), 0};
+        drop();
+        return report;
+    }
+    try {
+        if (answer.end == ExchangeEnd::kAnswered) {
+            if (answer.frame.kind != FrameKind::kGreeting) throw InputError("it answers before it is asked");
+            greeting_ = decodeGreeting(answer.frame.payload);
+            return std::nullopt;
+        }
+    } catch (const InputError& error) {
+        answer.end = ExchangeEnd::kGarbage;
+        answer.text = error.what();
+    }
+    JobReport report = reportLoss(std::move(answer), startTimeout_.count());
+    report.text = "while opening the device: " + report.text;
+    return report;
+}
+
+JobReport Worker::exchangeJob(const Job& job, Clock::time_point deadline, double timeoutSeconds)
+{
+    JobEncoding encoding{greeting_.precision, programFormOf(backend_), &programs_};
+    WorkerProcess::Answer answer = process_->exchange(FrameKind::kJob, encodeJob(job, encoding), deadline);
+    if (answer.end == ExchangeEnd::kAnswered && answer.frame.kind == FrameKind::kUnknownProgram) {
+        programs_.clear();
+        answer = process_->exchange(FrameKind::kJob, encodeJob(job, encoding), deadline);
+    }
+    if (answer.end != ExchangeEnd::kAnswered) return reportLoss(std::move(answer), timeoutSeconds);
+    for (const ProgramSource& program : job.programs) {
+        if (!program.key.empty()) programs_.insert(program.key);
+    }
+    JobReport report;
+    switch (answer.frame.kind) {
+    case FrameKind::kResult:
+        try {
+            report.result = decodeResult(answer.frame.payload);
+        } catch (const InputError& error) {
+            return reportLoss({ExchangeEnd::kGarbage, {}, error.what()}, timeoutSeconds);
+        }
+        break;
+    case FrameKind::kShaderError:
+        report.outcome = JobOutcome::kShaderError;
+        report.text = answer.frame.text();
+        break;
+    case FrameKind::kEnvironmentError: // the device may be lost: the next job gets a fresh one
+        report.outcome = JobOutcome::kEnvironmentError;
+        report.text = answer.frame.text();
+        report.logLines = process_->log().lines();
+        drop();
+        break;
+    default:
+        return reportLoss({ExchangeEnd::kGarbage, {}, "an answer of another kind"}, timeoutSeconds);
+    }
+    return report;
+}
+
+JobReport Worker::run(const Job& job, std::chrono::duration<double> timeout)
+{
+    const std::lock_guard lock(running_);
+    if (std::optional<JobReport> failed = start()) return *failed;
+    process_->log().clear(); // what it said before is not this job's
+    const Clock::time_point begin = Clock::now();
+    JobReport report = exchangeJob(job, deadlineAfter(timeout), timeout.count());
+    report.milliseconds = millisecondsSince(begin);
+    return report;
+}
+
+Fingerprint Worker::open()
+{
+    const std::lock_guard lock(running_);
+    if (const std::optional<JobReport> failed = start()) {
+        std::string text = fmt::format("{}: {}", backend_, failed->text);
+        if (!failed->logLines.empty()) text += "; its last line: " + failed->logLines.back();
+        throw EnvironmentError(text);
+    }
+    return greeting_.fingerprint;
+}
+
+void Worker::dismiss()
+{
+    const std::lock_guard lock(processMutex_);
+    if (process_) process_->dismiss();
+}
+
+int Worker::processId()
+{
+    const std::lock_guard lock(processMutex_);
+    return process_ ? process_->pid() : -1;
+}
+
+uint64_t Worker::peakMemory()
+{
+    const std::lock_guard lock(processMutex_);
+    return std::max(peakMemory_, process_ ? process_->peakMemory() : 0);
+}
+
+} // namespace
+
+struct WorkerPool::Impl {
+    Worker& workerOf(const std::string& backend, int core);
+    std::vector<Worker*> allWorkers() const;
+
+    WorkerOptions options;
+    std::vector<int> cpus = ownCpus();
+    mutable std::mutex mutex;
+    std::map<std::pair<std::string, int>, std::unique_ptr<Worker>> workers;
+};
+
+Worker& WorkerPool::Impl::workerOf(const std::string& backend, int core)
+{
+    const std::lock_guard lock(mutex);
+    std::unique_ptr<Worker>& worker = workers[{backend, core}];
+    if (!worker) {
+        WorkerCommand command;
+        command.executable = options.executable.empty() ? "/proc/self/exe" : options.executable;
+        command.arguments = {"worker", "--backend", backend};
+        if (options.validation) command.arguments.emplace_back("--validation");
+        command.environment = workerEnvironment(backend, options);
+        if (!cpus.empty()) command.cpu = cpus[static_cast<size_t>(std::max(core, 0)) % cpus.size()];
+        worker = std::make_unique<Worker>(std::move(command), backend, options.startTimeout);
+    }
+    return *worker;
+}
+
+std::vector<Worker*> WorkerPool::Impl::allWorkers() const
+{
+    const std::lock_guard lock(mutex);
+    std::vector<Worker*> all;
+    for (const auto& [place, worker] : workers)
+        all.push_back(worker.get());
+    return all;
+}
+
+WorkerPool::WorkerPool(const WorkerOptions& options) : impl_(std::make_unique<Impl>())
+{
+    impl_->options = options;
+}
+
+WorkerPool::~WorkerPool()
+{
+    for (Worker* worker : impl_->allWorkers())
+        worker->dismiss(); // all at once, then one is waited for after the other
+}
+
+JobReport WorkerPool::run(const std::string& backend, int core, const Job& job, std::chrono::duration<double> timeout)
+{
+    return impl_->workerOf(backend, core).run(job, timeout);
+}
+
+Fingerprint WorkerPool::fingerprint(const std::string& backend, int core)
+{
+    return impl_->workerOf(backend, core).open();
+}
+
+std::vector<int> WorkerPool::processIds(const std::string& backend) const
+{
+    std::vector<int> ids;
+    const std::lock_guard lock(impl_->mutex);
+    for (const auto& [place, worker] : impl_->workers) {
+        const int id = place.first == backend ? worker->processId() : -1;
+        if (id > 0) ids.push_back(id);
+    }
+    return ids;
+}
+
+uint64_t WorkerPool::peakMemory() const
+{
+    uint64_t sum = 0;
+    for (Worker* worker : impl_->allWorkers())
+        sum += worker->peakMemory();
+    return sum;
+}
+
+int runWorker(const std::string& backend, int requestFd, int replyFd, bool validation)
+{
+    return serveJobs(requestFd, replyFd, [&] {
+        DeviceOptions options;
+        options.validation = validation;
+        return openDevice(backend, options);
+    });
+}
+
+} // namespace crossray
