@@ -7,8 +7,12 @@ function(crossray_test_program name)
   cmake_parse_arguments(arg "" "PREFIX" "SOURCES;USES" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE ${arg_USES} GTest::gtest GTest::gtest_main rapidcheck)
-  target_compile_definitions(${name} PRIVATE CROSSRAY_SOURCE_DIR="${CMAKE_SOURCE_DIR}" CROSSRAY_BINARY_DIR="${CMAKE_BINARY_DIR}")
-  gtest_discover_tests(${name} TEST_PREFIX "${arg_PREFIX}" DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
+  # Paths relative to the build folder, in which the tests run: so a compiler cache serves every checkout.
+  file(RELATIVE_PATH source_dir ${CMAKE_BINARY_DIR} ${CMAKE_SOURCE_DIR})
+  target_compile_definitions(${name} PRIVATE CROSSRAY_SOURCE_DIR="${source_dir}" CROSSRAY_BINARY_DIR=".")
+  target_compile_options(${name} PRIVATE -O1) # the tests themselves need no speed; what they test has its own flags
+  gtest_discover_tests(${name} TEST_PREFIX "${arg_PREFIX}" WORKING_DIRECTORY ${CMAKE_BINARY_DIR} DISCOVERY_TIMEOUT 60
+                       PROPERTIES TIMEOUT 300)
 endfunction()
 
 foreach(module base scene compile backend backend_cpu backend_vulkan backend_gl judge case expect pass run bench cli)
