@@ -1,5 +1,6 @@
-// Makes the expected plane of an expectation, from exactly one source, sharing no code with the shaders: closed forms written in
-// doubles from the formulas (analytic_*.cpp, each with its source beside it), the truth tracer, a constant, or a golden file.
+// Makes the expected plane of an expectation, from exactly one source, sharing no code with the shaders: closed forms
+// written in doubles from the formulas (analytic_*.cpp, each with its source beside it), the truth tracer, a constant,
+// or a golden file.
 #pragma once
 
 #include "harness/case/case.h"
@@ -7,6 +8,7 @@
 #include "harness/scene/gbuffer.h"
 #include "harness/scene/truth.h"
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,33 +16,79 @@
 
 namespace crossray {
 
-// What the expectations of one case are computed from; made once a case and shared by all backends. The truth is made on the
-// first call that needs it.
+// What a pixel's ray starts from, in exact numbers.
+struct SurfacePoint {
+    glm::dvec3 positionWS{0.0};
+    glm::dvec3 normalWS{0.0}; // unit, on the viewer's side
+    glm::dvec3 toEyeWS{0.0};  // unit
+    int primitive = -1;       // of the scene; -1 in recorded data
+};
+
+// What the expectations of one case are computed from; made once a case and shared by all backends. Surfaces and truth
+// are made on the first call that needs them; all members may be called from several threads.
 class CaseData {
   public:
-    explicit CaseData(const Case& testCase); // throws InputError: recorded files that cannot be read
+    // Throws InputError: an invalid camera or scene, recorded files that cannot be read.
+    explicit CaseData(const Case& testCase);
+    ~CaseData();
+    CaseData(CaseData&&) noexcept;
+    CaseData& operator=(CaseData&&) noexcept;
+
     const Case& testCase() const { return testCase_; }
     const GBuffer& gbuffer() const { return gbuffer_; }
-    const Truth& truth() const; // throws InputError when the case has no truth
+
+    // Pixels that trace a ray: those whose nearest surface is a mirror (reflection) or glass (refraction), in recorded
+    // data those of the traced object (any surface when it is 0).
     const std::vector<bool>& tracedPixels() const { return traced_; }
+
+    // Of every traced pixel, at its centre: from the scene's geometry, not from the G-buffer, which rounds; from the
+    // G-buffer when it was recorded, because it is all there is. The other pixels hold zeros.
+    const std::vector<SurfacePoint>& surfaces() const;
+
+    const Truth& truth() const; // throws InputError when the case has no truth
+
+    // A traced pixel whose ray does not exist (total internal reflection) is unanswerable.
     std::vector<HitTruth> hitTruth() const;
 
   private:
+    struct Lazy;
+
     Case testCase_;
     GBuffer gbuffer_;
     std::vector<bool> traced_;
-    mutable std::optional<Truth> truth_;
+    std::unique_ptr<Lazy> lazy_;
 };
 
 // The G-buffer channels that a case's passes read, and those its expectations need.
 std::vector<GBufferChannel> channelsFor(const Case& testCase);
 
-// The expected plane of an analytic, truth, constant or golden source. Agreement has no plane of its own: the runner supplies the
-// reference backend's. A missing golden returns nothing.
+// The expected plane of an analytic, truth, constant or golden source; 0 at pixels that trace no ray (a constant is
+// everywhere). Agreement has no plane of its own: the runner supplies the reference backend's. A missing golden returns
+// nothing. Throws InputError at the expectation's position, with what is allowed: an unknown name, an output that the
+// source cannot answer for, a closed form or a truth that the case's data cannot give, a golden of another shape.
 std::optional<Plane> makeExpected(const CaseData& data, const Expectation& expectation);
+
+// The pixels that the expectation speaks of, less those for which its source has no answer: where the truth has no ray
+// there is no direction, origin or path. `hitSuccess` is the backend's own output, for Where::kHits and
+// kAnswerableHits: throws InputError when it is needed and missing.
 Mask makeMask(const CaseData& data, const Expectation& expectation, const Plane* hitSuccess);
 
 // The closed forms by name, with the outputs each can answer for: the schema check and the documents list them.
+//
+// Inputs are the exact surface points and the case's material, proxy and screen-weight settings. At degenerate inputs
+// they give the documented answers of the library:
+//   refraction   N.V below 1e-4: the normal is tilted in the plane of N and V until N.V = 1e-4. Index of refraction
+//   taken into
+//                [0.001, 1000], thickness into [0, 65504]. Total reflection at the entry: no raycast, the direction is
+//                the reflected one, the origin the surface point, the path 0. Thickness 0: the sphere gives its limit
+//                (the direction does not depend on the thickness), the box -V; both at the entry point. A box's path is
+//                at most 100 thicknesses. A sphere's exit never reflects totally: inside, both ends of a chord meet the
+//                surface at the same angle.
+//   reflection   the mirror image for every sign of N.V.
+//   proxies      seen from inside: the far face or root. A ray that does not meet the proxy, or whose hit is not in
+//   front of
+//                the camera, is a miss; depth and screen position are 0 then.
+//   screen weight  distance 0: 1 on the screen, borders included; 0 off it.
 struct ClosedForm {
     std::string name;
     std::vector<std::string> outputs;

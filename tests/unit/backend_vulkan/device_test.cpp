@@ -133,31 +133,6 @@ void main() { for (int i = 0; i < count; ++i) values[i] = 7.0; }
     EXPECT_EQ(result.readbacks[1], std::vector<double>(4096, 0.0));
 }
 
-TEST_P(VulkanDeviceTest, aGroupSharesMemoryAcrossABarrier)
-{
-    constexpr const char* kPrefixSum = R"(
-layout(local_size_x = 256) in;
-layout(binding = 0) buffer Out { float values[]; };
-shared float sums[256];
-void main()
-{
-    uint i = gl_LocalInvocationID.x;
-    sums[i] = 1.0;
-    for (uint step = 1; step < 256; step *= 2) {
-        barrier();
-        float other = i >= step ? sums[i - step] : 0.0;
-        barrier();
-        sums[i] += other;
-    }
-    values[gl_GlobalInvocationID.x] = sums[i];
-}
-)";
-    const JobResult result = open()->run(makeJob("prefix", kPrefixSum, 1024, 4));
-    for (size_t i = 0; i < 1024; ++i)
-        EXPECT_EQ(result.readbacks[0][i], static_cast<double>(i % 256 + 1));
-    EXPECT_EQ(joinMessages(result), "");
-}
-
 TEST_P(VulkanDeviceTest, tellsWhatItIs)
 {
     const Fingerprint print = open(false)->fingerprint();

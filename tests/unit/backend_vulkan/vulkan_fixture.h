@@ -12,7 +12,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <ostream>
 #include <stdexcept>
 #include <unistd.h>
 
@@ -97,16 +96,12 @@ struct Driver {
 inline constexpr Driver kLavapipe{"lavapipe", "/usr/share/vulkan/icd.d/lvp_icd.x86_64.json"};
 inline constexpr Driver kSwiftshader{"swiftshader", "/usr/lib/chromium/vk_swiftshader_icd.json"};
 
-inline std::ostream& operator<<(std::ostream& out, const Driver& driver)
-{
-    return out << driver.backend;
-}
-
 // The environment must be set before the loader is asked for the first time.
 inline void chooseDriver(const Driver& driver)
 {
     setenv("VK_ICD_FILENAMES", driver.icdFile, 1);
-    setenv("LP_NUM_THREADS", "0", 1); // shaders run in the queue's own thread, as in a worker with one core
+    setenv("VK_LOADER_DRIVERS_SELECT", "*", 1);
+    setenv("LP_NUM_THREADS", "1", 1);
 }
 
 inline std::string nameOfDriver(const testing::TestParamInfo<Driver>& info)

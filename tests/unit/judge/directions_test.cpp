@@ -22,18 +22,13 @@ double angleBetween(const std::vector<double>& e, const std::vector<double>& a)
     return compareDirections(row(3, e), row(3, a), {}, degrees(180.0)).worst->error;
 }
 
+// By angles: a loop that waits for a good draw would never end while a failure is shrunk.
 std::vector<double> anyDirection()
 {
-    std::vector<double> v(3);
-    double length = 0.0;
-    do {
-        for (double& x : v)
-            x = *rc::gen::inRange(-1000, 1001) / 1000.0;
-        length = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    } while (length < 0.1);
-    for (double& x : v)
-        x /= length;
-    return v;
+    const double azimuth = *rc::gen::inRange(0, 6284) / 1000.0;
+    const double height = *rc::gen::inRange(-1000, 1001) / 1000.0;
+    const double across = std::sqrt(1.0 - height * height);
+    return {across * std::cos(azimuth), across * std::sin(azimuth), height};
 }
 
 } // namespace

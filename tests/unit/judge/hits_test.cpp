@@ -29,13 +29,14 @@ HitBudget budget(std::optional<double> recall, std::optional<double> precision, 
     return {recall, precision, falseHits, 2.0};
 }
 
-// Four answerable rays (two right, one 3 px off, one missed), four unanswerable (one claimed), one pixel without a ray.
+// Five answerable rays (two right, one 3 px off, two not found), three unanswerable (one claimed), one pixel without a
+// ray: recall, precision and false hits all have another denominator.
 struct Example {
     std::vector<HitTruth> truth{answerable(10, 10), answerable(20, 10), answerable(30, 10),
-                                answerable(40, 10), unanswerable(),     unanswerable(),
+                                answerable(40, 10), answerable(50, 10), unanswerable(),
                                 unanswerable(),     unanswerable(),     HitTruth{}};
-    Plane success = row(1, {kHit, kHit, kHit, kUnknown, kHit, kMiss, kUnknown, 0, kHit});
-    Plane positions = row(2, {10, 10, 21, 11, 30, 13, 0, 0, 5, 5, 0, 0, 0, 0, 0, 0, 7, 7});
+    Plane success = row(1, {kHit, kHit, kHit, kUnknown, kMiss, kHit, kMiss, kUnknown, kHit});
+    Plane positions = row(2, {10, 10, 21, 11, 30, 13, 0, 0, 0, 0, 5, 5, 0, 0, 0, 0, 7, 7});
 };
 
 } // namespace
@@ -43,18 +44,19 @@ struct Example {
 TEST(JudgeHits, theDefinitionsOfTheYardstick)
 {
     const Example example;
-    const Comparison result = judgeHits(example.truth, example.success, &example.positions, budget(0.5, 0.5, 0.25));
+    const Comparison result = judgeHits(example.truth, example.success, &example.positions, budget(0.4, 0.5, 0.34));
     EXPECT_TRUE(result.passed) << result.reason;
-    EXPECT_DOUBLE_EQ(result.metrics.at("recall"), 2.0 / 4.0);
+    EXPECT_DOUBLE_EQ(result.metrics.at("recall"), 2.0 / 5.0);
     EXPECT_DOUBLE_EQ(result.metrics.at("precision"), 2.0 / 4.0);
-    EXPECT_DOUBLE_EQ(result.metrics.at("false"), 1.0 / 4.0);
-    EXPECT_EQ(result.metrics.at("answerable"), 4.0);
-    EXPECT_EQ(result.metrics.at("unanswerable"), 4.0);
+    EXPECT_DOUBLE_EQ(result.metrics.at("false"), 1.0 / 3.0);
+    EXPECT_EQ(result.metrics.at("answerable"), 5.0);
+    EXPECT_EQ(result.metrics.at("unanswerable"), 3.0);
     EXPECT_EQ(result.metrics.at("claimed"), 4.0) << "a pixel without a ray claims nothing";
     EXPECT_EQ(result.compared, 8U);
-    EXPECT_EQ(result.failed, 3U);
+    EXPECT_EQ(result.failed, 4U);
     EXPECT_EQ(result.census.at("hit at the wrong place"), 1U);
     EXPECT_EQ(result.census.at("unknown for hit"), 1U);
+    EXPECT_EQ(result.census.at("miss for hit"), 1U);
     EXPECT_EQ(result.census.at("hit for unanswerable"), 1U);
     EXPECT_EQ(result.confusion->counts[1][1], 3U);
     EXPECT_EQ(result.confusion->counts[1][3], 1U);
@@ -70,22 +72,22 @@ TEST(JudgeHits, eachBoundCanFail)
     const auto judge = [&](const HitBudget& bounds) {
         return judgeHits(example.truth, example.success, &example.positions, bounds);
     };
-    EXPECT_FALSE(judge(budget(0.51, {}, {})).passed);
-    EXPECT_TRUE(judge(budget(0.50, {}, {})).passed);
+    EXPECT_FALSE(judge(budget(0.41, {}, {})).passed);
+    EXPECT_TRUE(judge(budget(0.40, {}, {})).passed);
     EXPECT_FALSE(judge(budget({}, 0.51, {})).passed);
     EXPECT_TRUE(judge(budget({}, 0.50, {})).passed);
-    EXPECT_FALSE(judge(budget({}, {}, 0.24)).passed);
-    EXPECT_TRUE(judge(budget({}, {}, 0.25)).passed);
+    EXPECT_FALSE(judge(budget({}, {}, 0.33)).passed);
+    EXPECT_TRUE(judge(budget({}, {}, 0.34)).passed);
 }
 
 TEST(JudgeHits, theReasonSaysTheWorstFirst)
 {
     const Example example;
     const Comparison result = judgeHits(example.truth, example.success, &example.positions, budget(0.6, 0.9, 0.2));
-    EXPECT_EQ(result.reason, "precision 0.5000 is below 0.9, recall 0.5000 is below 0.6, false 0.2500 is above 0.2; "
+    EXPECT_EQ(result.reason, "precision 0.5000 is below 0.9, recall 0.4000 is below 0.6, false 0.3333 is above 0.2; "
                              "3 px off at (2, 0): expected (30, 10), actual (30, 13)");
     const Comparison falseFirst = judgeHits(example.truth, example.success, &example.positions, budget({}, {}, 0.0));
-    EXPECT_EQ(falseFirst.worst->x, 4);
+    EXPECT_EQ(falseFirst.worst->x, 5);
 }
 
 TEST(JudgeHits, theDistanceIsInclusiveAndTheBudgetsOwn)
@@ -102,9 +104,9 @@ TEST(JudgeHits, theDistanceIsInclusiveAndTheBudgetsOwn)
 TEST(JudgeHits, withoutPositionsAClaimedAnswerableHitIsRight)
 {
     const Example example;
-    const Comparison result = judgeHits(example.truth, example.success, nullptr, budget(0.75, 0.75, 0.25));
+    const Comparison result = judgeHits(example.truth, example.success, nullptr, budget(0.6, 0.75, 0.34));
     EXPECT_TRUE(result.passed) << result.reason;
-    EXPECT_DOUBLE_EQ(result.metrics.at("recall"), 0.75);
+    EXPECT_DOUBLE_EQ(result.metrics.at("recall"), 0.6);
 }
 
 TEST(JudgeHits, aPositionThatIsNoNumberIsNeverRight)

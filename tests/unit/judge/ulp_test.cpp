@@ -49,6 +49,7 @@ TEST(UlpDistance, theExtremes)
     // Both overflow a float and are still not the same.
     EXPECT_EQ(ulpDistance(1e300, 2e300, false), kInf);
     EXPECT_EQ(ulpDistance(1e300, kInf, false), kInf);
+    EXPECT_EQ(ulpDistance(kInf, 1e300, false), kInf);
     EXPECT_GT(ulpDistance(1e300, 2e300, true), 1e15);
 }
 

@@ -1,0 +1,58 @@
+// The closed forms, one subject a file. Written by hand from the formulas, each by another derivation than the obvious
+// one where there is one, so that it is a second opinion on the shaders.
+#pragma once
+
+#include "harness/case/case.h"
+#include "harness/expect/expect.h"
+#include "harness/scene/camera_frame.h"
+
+#include <optional>
+
+namespace crossray {
+
+// The values of HitReason that a closed form can know; shaders/crossray/shared/outputs.glsl.
+enum class HitReason : int {
+    kNone = 0,
+    kBehindCamera = 5,
+    kNoProxyHit = 6,
+    kNoRefractedRay = 8,
+    kDegenerateRay = 9,
+    kDegenerateInput = 10,
+};
+
+// The ray that a pixel sends out, or why there is none.
+struct EffectRay {
+    HitReason status = HitReason::kNone;
+    glm::dvec3 originWS{0.0};
+    glm::dvec3 dirWS{0.0}; // unit
+    double pathLength = 0; // metres inside the refracting material
+};
+
+EffectRay reflectAtSurface(const SurfacePoint& surface);
+
+// Models of refraction (domain, section 5). `ior` is the inside's index over the outside's, `thickness` in metres.
+EffectRay refractThroughSphere(const SurfacePoint& surface, double ior, double thickness);
+EffectRay refractThroughBox(const SurfacePoint& surface, double ior, double thickness);
+EffectRay refractThroughThin(const SurfacePoint& surface, double ior);
+EffectRay passStraight(const SurfacePoint& surface);
+
+// The ray of the case's effect and refraction model.
+EffectRay computeEffectRay(const Case& testCase, const SurfacePoint& surface);
+
+// Distance along the ray to where it leaves the proxy; nothing when it does not meet it.
+std::optional<double> distanceToBoxExit(const ProxyVolume& proxy, const Ray& ray);
+std::optional<double> distanceToSphereExit(const ProxyVolume& proxy, const Ray& ray);
+inline constexpr double kInfiniteProxyDistance = 65504.0; // metres
+
+// Where a ray ends on a proxy, and what the camera makes of it.
+struct RayEnd {
+    HitClass hitClass = HitClass::kNoRaycast;
+    HitReason reason = HitReason::kNone;
+    ScreenPoint screen; // of a hit
+};
+RayEnd projectOnProxy(const CameraFrame& frame, ProjectionModel model, const ProxyVolume& proxy, const EffectRay& ray);
+
+// Weight in [0,1] of a hit at `uv`; domain, section 2. `distance` in the same unit.
+double screenWeightAt(const glm::dvec2& uv, double distance, ScreenWeightForm form);
+
+} // namespace crossray

@@ -1,0 +1,16 @@
+#include "harness/expect/analytic.h"
+
+namespace crossray {
+
+// Law of reflection (Heron): the reflected light seems to come from the eye's mirror image. One metre back along the
+// view stands E = P + V; its image in the plane through P with normal N is E - 2 (N.(E - P)) N; the ray runs from there
+// to P.
+EffectRay reflectAtSurface(const SurfacePoint& surface)
+{
+    const glm::dvec3 eye = surface.positionWS + surface.toEyeWS;
+    const double height = glm::dot(surface.normalWS, surface.toEyeWS);
+    const glm::dvec3 image = eye - 2.0 * height * surface.normalWS;
+    return {HitReason::kNone, surface.positionWS, glm::normalize(surface.positionWS - image), 0.0};
+}
+
+} // namespace crossray

@@ -1,0 +1,180 @@
+#include "harness/expect/expect.h"
+
+#include "harness/base/error.h"
+#include "harness/scene/camera_frame.h"
+
+#include <algorithm>
+#include <mutex>
+#include <string_view>
+
+namespace crossray {
+
+struct CaseData::Lazy {
+    std::mutex mutex;
+    std::optional<std::vector<SurfacePoint>> surfaces;
+    std::optional<Truth> truth;
+};
+
+namespace {
+
+GBuffer makeGBuffer(const Case& testCase)
+{
+    const std::vector<GBufferChannel> channels = channelsFor(testCase);
+    if (!testCase.recorded) return renderGBuffer(testCase.scene, testCase.camera, channels);
+    return readGBuffer(testCase.recorded->file, testCase.camera, testCase.recorded->channels, channels);
+}
+
+std::string_view tracedMaterial(TraceEffect effect)
+{
+    return effect == TraceEffect::kReflection ? "mirror" : "glass";
+}
+
+std::optional<SurfaceHit> castPixel(const Scene& scene, const CameraFrame& frame, size_t pixel)
+{
+    const auto width = static_cast<size_t>(frame.camera().width);
+    const glm::dvec2 center(static_cast<double>(pixel % width) + 0.5, static_cast<double>(pixel / width) + 0.5);
+    return castPrimaryRay(scene, frame, frame.primaryRay(center));
+}
+
+// By the object index, which the G-buffer has already; only where primitives of different materials share an index by
+// casting once more.
+std::vector<bool> findTracedPixels(const Scene& scene, const GBuffer& gbuffer, TraceEffect effect)
+{
+    const std::string_view material = tracedMaterial(effect);
+    std::map<int, bool> tracedByIndex{{0, false}};
+    bool ambiguous = false;
+    for (size_t i = 0; i < scene.primitives.size(); ++i) {
+        const bool traces = scene.primitives[i].material == material;
+        const auto [entry, isNew] = tracedByIndex.emplace(objectIndexOf(scene, static_cast<int>(i)), traces);
+        ambiguous = ambiguous || (!isNew && entry->second != traces);
+    }
+    const Plane& indices = gbuffer.plane(GBufferChannel::kObjectIndex);
+    const CameraFrame frame(gbuffer.camera);
+    std::vector<bool> traced(indices.pixelCount());
+    for (size_t pixel = 0; pixel < traced.size(); ++pixel) {
+        if (ambiguous) {
+            const auto hit = castPixel(scene, frame, pixel);
+            traced[pixel] = hit && scene.primitives[static_cast<size_t>(hit->primitive)].material == material;
+        } else {
+            traced[pixel] = tracedByIndex.at(static_cast<int>(indices.values[pixel]));
+        }
+    }
+    return traced;
+}
+
+std::vector<bool> findRecordedPixels(const GBuffer& gbuffer, int object)
+{
+    const Plane& indices = gbuffer.plane(GBufferChannel::kObjectIndex);
+    std::vector<bool> traced(indices.pixelCount());
+    for (size_t pixel = 0; pixel < traced.size(); ++pixel) {
+        const double index = indices.values[pixel];
+        traced[pixel] = object != 0 ? index == static_cast<double>(object) : index != 0.0;
+    }
+    return traced;
+}
+
+std::vector<SurfacePoint> castSurfaces(const Scene& scene, const Camera& camera, const std::vector<bool>& traced)
+{
+    const CameraFrame frame(camera);
+    std::vector<SurfacePoint> surfaces(traced.size());
+    const auto width = static_cast<size_t>(camera.width);
+    for (size_t pixel = 0; pixel < traced.size(); ++pixel) {
+        if (!traced[pixel]) continue;
+        const Ray ray =
+            frame.primaryRay({static_cast<double>(pixel % width) + 0.5, static_cast<double>(pixel / width) + 0.5});
+        const auto hit = castPrimaryRay(scene, frame, ray);
+        surfaces[pixel] = {hit->positionWS, hit->backFace ? -hit->normalWS : hit->normalWS, -ray.dirWS, hit->primitive};
+    }
+    return surfaces;
+}
+
+std::vector<SurfacePoint> readSurfaces(const GBuffer& gbuffer, const std::vector<bool>& traced)
+{
+    const Plane& positions = gbuffer.plane(GBufferChannel::kPositionWS);
+    const Plane& normals = gbuffer.plane(GBufferChannel::kNormalWS);
+    const glm::dmat4& worldFromView = gbuffer.camera.worldFromView;
+    std::vector<SurfacePoint> surfaces(traced.size());
+    for (size_t pixel = 0; pixel < traced.size(); ++pixel) {
+        if (!traced[pixel]) continue;
+        const double* p = &positions.values[pixel * 3];
+        const double* n = &normals.values[pixel * 3];
+        SurfacePoint& surface = surfaces[pixel];
+        surface.positionWS = {p[0], p[1], p[2]};
+        surface.normalWS = glm::normalize(glm::dvec3(n[0], n[1], n[2]));
+        surface.toEyeWS = gbuffer.camera.projection == ProjectionKind::kPerspective
+                              ? glm::normalize(glm::dvec3(worldFromView[3]) - surface.positionWS)
+                              : glm::dvec3(worldFromView[2]);
+    }
+    return surfaces;
+}
+
+Truth makeTruth(const Case& testCase, const GBuffer& gbuffer)
+{
+    if (!testCase.recorded) return computeTruth(testCase.scene, testCase.camera, testCase.effect);
+    const RecordedGBuffer& recorded = *testCase.recorded;
+    if (recorded.truthFile.empty()) {
+        throw InputError(testCase.position,
+                         "the recorded G-buffer comes without a truth file; an expectation of this case may be "
+                         "analytic, constant, golden or agree, or [gbuffer] names a truth");
+    }
+    return readTruth(recorded.truthFile, gbuffer, readSceneJson(recorded.cameraFile), testCase.effect,
+                     recorded.tracedObject);
+}
+
+} // namespace
+
+std::vector<GBufferChannel> channelsFor(const Case& testCase)
+{
+    using enum GBufferChannel;
+    // A recorded truth is told by what the G-buffer shows: it needs everything.
+    if (testCase.recorded) return {kDeviceDepth, kLinearDepth, kNormalWS, kPositionWS, kColor, kObjectIndex};
+    std::vector<GBufferChannel> channels{kDeviceDepth, kNormalWS, kObjectIndex};
+    const bool color = std::any_of(testCase.outputs.begin(), testCase.outputs.end(), [](const OutputInfo& output) {
+        return output.name == "Color" || output.name == "SampledColor";
+    });
+    if (color) channels.push_back(kColor);
+    return channels;
+}
+
+CaseData::CaseData(const Case& testCase)
+    : testCase_(testCase), gbuffer_(makeGBuffer(testCase)),
+      traced_(testCase.recorded ? findRecordedPixels(gbuffer_, testCase.recorded->tracedObject)
+                                : findTracedPixels(testCase.scene, gbuffer_, testCase.effect)),
+      lazy_(std::make_unique<Lazy>())
+{
+}
+
+CaseData::~CaseData() = default;
+CaseData::CaseData(CaseData&&) noexcept = default;
+CaseData& CaseData::operator=(CaseData&&) noexcept = default;
+
+const std::vector<SurfacePoint>& CaseData::surfaces() const
+{
+    const std::lock_guard lock(lazy_->mutex);
+    if (!lazy_->surfaces) {
+        lazy_->surfaces = testCase_.recorded ? readSurfaces(gbuffer_, traced_)
+                                             : castSurfaces(testCase_.scene, testCase_.camera, traced_);
+    }
+    return *lazy_->surfaces;
+}
+
+const Truth& CaseData::truth() const
+{
+    const std::lock_guard lock(lazy_->mutex);
+    if (!lazy_->truth) lazy_->truth = makeTruth(testCase_, gbuffer_);
+    return *lazy_->truth;
+}
+
+std::vector<HitTruth> CaseData::hitTruth() const
+{
+    const Truth& known = truth();
+    std::vector<HitTruth> hits(traced_.size());
+    for (size_t pixel = 0; pixel < traced_.size(); ++pixel) {
+        const TruthPixel& here = known.pixels[pixel];
+        hits[pixel] = {traced_[pixel], traced_[pixel] && here.screen == ScreenKnowledge::kVisible, here.hitPositionSS.x,
+                       here.hitPositionSS.y};
+    }
+    return hits;
+}
+
+} // namespace crossray

@@ -1,0 +1,65 @@
+// The tables of closed forms and truth quantities: by name, what they can answer for, and how.
+#pragma once
+
+#include "harness/expect/analytic.h"
+#include "harness/expect/expect.h"
+
+#include <string_view>
+#include <vector>
+
+namespace crossray {
+
+// The outputs that a closed form or the truth answers for; the numbers are those of base/outputs.h.
+enum class Output : int {
+    kColor = 0,
+    kRayDirWS = 1,
+    kHitDepth = 2,
+    kHitSuccess = 3,
+    kHitReason = 4,
+    kPositionNDC = 6,
+    kHitWeight = 11,
+    kSampledColor = 12,
+    kHitPositionSS = 13,
+    kPathLength = 14,
+    kRayOriginWS = 15,
+};
+
+// All that a quantity may know of one pixel; each fills what it answers for.
+struct PixelAnswer {
+    EffectRay ray;
+    HitClass hitClass = HitClass::kNoRaycast;
+    HitReason reason = HitReason::kNone;
+    double hitDepth = 0;
+    glm::dvec2 hitPositionSS{0.0};
+    glm::dvec2 positionNDC{0.0}; // x right, y up, [-1,1] on screen
+    double hitWeight = 0;
+    glm::dvec3 radiance{0.0};
+};
+
+// What the quantities work on; `truth` only where the quantity asks for it.
+struct QuantityInput {
+    const CaseData& data;
+    const Case& testCase;
+    CameraFrame frame;
+    const std::vector<SurfacePoint>* surfaces = nullptr;
+    const Truth* truth = nullptr;
+};
+
+struct Quantity {
+    ClosedForm info;
+    std::vector<Output> outputs;
+    bool (*needsTruth)(const Case& testCase) = nullptr; // null: never
+    // Why the case cannot be asked for it, or empty.
+    std::string (*refuse)(const Case& testCase, Output output) = nullptr;
+    PixelAnswer (*answer)(const QuantityInput& input, size_t pixel) = nullptr;
+};
+
+const std::vector<Quantity>& analyticQuantities();
+const std::vector<Quantity>& truthTable();
+
+// A quantity whose info's output names are those of `outputs`.
+Quantity makeQuantity(std::string name, std::string summary, std::vector<Output> outputs,
+                      bool (*needsTruth)(const Case&), std::string (*refuse)(const Case&, Output),
+                      PixelAnswer (*answer)(const QuantityInput&, size_t));
+
+} // namespace crossray
