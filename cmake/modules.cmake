@@ -14,8 +14,12 @@ crossray_module(expect USES case)
 crossray_module(pass USES compile backend expect)
 crossray_module(run USES pass backend/cpu backend/vulkan backend/gl
                 PACKAGES nlohmann_json::nlohmann_json pugixml::pugixml)
+target_compile_definitions(crossray_run PRIVATE CROSSRAY_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
+                           CROSSRAY_VERSION="${PROJECT_VERSION}")
 crossray_module(bench USES run)
 crossray_module(cli USES run PACKAGES CLI11::CLI11 PNG::PNG)
+# CLI11 is a header of templates that the optimiser spends minutes on, for a command line that is parsed once.
+set_source_files_properties(harness/cli/command_line.cpp PROPERTIES COMPILE_OPTIONS "-O0")
 
 # The GLSL library in float: 0.5 is a float there, as in GLSL.
 file(GLOB float_shader_units CONFIGURE_DEPENDS harness/backend/cpu/*32.cpp)

@@ -1,0 +1,280 @@
+#include "harness/cli/command_line.h"
+
+#include "harness/cli/verbs.h"
+#include "harness/run/environment.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <functional>
+#include <map>
+#include <memory>
+
+namespace crossray {
+
+namespace {
+
+// The parsed command line; CLI11 holds references into it while it parses.
+struct CommandLine {
+    GlobalOptions global;
+    RunOptions run;
+    SelectionOptions list;
+    bool listJson = false;
+    ShowOptions show;
+    CompileVerbOptions compile;
+    bool noOptimization = false;
+    std::string before, after;
+    bool diffJson = false;
+    ReviewOptions review;
+    bool reviewList = false;
+    std::string github = "auto";
+    std::string workerBackend;
+    int requestFd = -1, replyFd = -1;
+    bool workerValidation = false;
+    bool stopAtFirst = false;
+    std::function<int()> verb;
+};
+
+template <typename Enum>
+CLI::Option* addChoice(CLI::App& app, const std::string& name, Enum& value, const std::map<std::string, Enum>& choices,
+                       const std::string& text)
+{
+    std::string allowed;
+    for (const auto& [choice, unused] : choices)
+        allowed += allowed.empty() ? choice : "|" + choice;
+    return app
+        .add_option_function<std::string>(
+            name,
+            [&value, choices, name, allowed](const std::string& given) {
+                const auto found = choices.find(given);
+                if (found == choices.end()) {
+                    throw CLI::ValidationError(fmt::format("{} {}: allowed is {}", name, given, allowed));
+                }
+                value = found->second;
+            },
+            text)
+        ->type_name(allowed)
+        ->take_last();
+}
+
+void addSelection(CLI::App& verb, SelectionOptions& selection)
+{
+    verb.add_option("cases", selection.arguments, "Case files, folders, names, or globs over both; none: all cases")
+        ->type_name("CASE|DIR|GLOB");
+    verb.add_option("-k", selection.expression, "Only cases whose name or tags fit: words with and, or, not, brackets")
+        ->type_name("EXPR");
+    verb.add_option("--tag", selection.tags, "Only cases with this tag; may be repeated")
+        ->type_name("TAG")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    verb.add_option("--shard", selection.shard, "Part I of N, from 1, by a stable hash of the name")->type_name("I/N");
+    verb.add_flag("--last-failed", selection.lastFailed, "Only the cases that failed in the last run (OUT/run.json)");
+}
+
+void addRun(CLI::App& app, CommandLine& line)
+{
+    CLI::App& verb = *app.add_subcommand("run", "Run cases on the backends and judge what they answer");
+    RunOptions& run = line.run;
+    addSelection(verb, run.selection);
+    verb.add_option("--backend", run.backends,
+                    "Only these; all for every one that is found, vulkan:NAME for any other device")
+        ->type_name("NAME,...")
+        ->delimiter(',')
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    verb.add_option("-j,--jobs", run.cores, "Processors to use; default: all available")
+        ->type_name("N")
+        ->check(CLI::Range(1, 256));
+    verb.add_flag("-x,--exitfirst", line.stopAtFirst, "Stop at the first failure");
+    verb.add_option("--max-fail", run.maxFailures, "Stop after N failures")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1000000));
+    verb.add_flag("--keep-going", run.keepGoing,
+                  "Run the other cases when a case file is broken; the exit code stays 2");
+    verb.add_option("--timeout", run.timeoutSeconds, "Seconds a case may take on a backend, instead of its own limit")
+        ->type_name("SECONDS")
+        ->check(CLI::Range(0.001, 86400.0));
+    verb.add_option("--repeat", run.repeat, "Run each case N times; answers that differ fail")
+        ->type_name("N")
+        ->check(CLI::Range(1, 10000));
+    verb.add_option("--seed", run.seed, "Run the cases in a random order drawn from this number")->type_name("N");
+    verb.add_flag("--validate", run.validation,
+                  "Vulkan validation layer and GL debug context; any message fails the case");
+    addChoice<KeepPlanes>(verb, "--planes", run.planes,
+                          {{"all", KeepPlanes::kAll}, {"failed", KeepPlanes::kFailed}, {"none", KeepPlanes::kNone}},
+                          "Which cases' planes are kept as EXR");
+    verb.add_option("-o,--output", run.output, "Folder for run.json and planes; default: out/last")
+        ->type_name("DIR")
+        ->take_last();
+    verb.add_flag("--json", run.json, "Print run.json's summary to standard output, and all text to standard error");
+    verb.add_option("--junit", run.junit, "Write JUnit XML")->type_name("FILE");
+    addChoice<std::string>(verb, "--github", line.github, {{"auto", "auto"}, {"on", "on"}, {"off", "off"}},
+                           "GitHub annotations; auto: when in GitHub Actions");
+    addChoice<ProgressMode>(verb, "--progress", run.progress,
+                            {{"auto", ProgressMode::kAuto},
+                             {"bar", ProgressMode::kBar},
+                             {"lines", ProgressMode::kLines},
+                             {"none", ProgressMode::kNone}},
+                            "auto: a bar on a terminal, lines elsewhere");
+    verb.add_flag("-q,--quiet", run.quiet, "Failures and the last line alone");
+    verb.add_flag("-v,--verbose", run.verbose, "Every verdict, and every failed expectation");
+    verb.callback([&line] {
+        line.verb = [&line] {
+            const char* const actions = std::getenv("GITHUB_ACTIONS");
+            line.run.github =
+                line.github == "on" || (line.github == "auto" && actions != nullptr && std::string(actions) == "true");
+            if (line.stopAtFirst) line.run.maxFailures = 1;
+            return runCases(line.global, line.run);
+        };
+    });
+}
+
+void addInspection(CLI::App& app, CommandLine& line)
+{
+    CLI::App& list = *app.add_subcommand("list", "List cases");
+    addSelection(list, line.list);
+    list.add_flag("--json", line.listJson, "As JSON");
+    list.callback([&line] { line.verb = [&line] { return listCases(line.global, line.list, line.listJson); }; });
+
+    CLI::App& show = *app.add_subcommand("show", "Show what a case will run, expect and skip");
+    show.add_option("case", line.show.testCase, "A case's name, file or glob")->type_name("CASE")->required();
+    show.add_option("--backend", line.show.backends, "As for run")->type_name("NAME,...")->delimiter(',')->expected(1);
+    show.callback([&line] { line.verb = [&line] { return showCase(line.global, line.show); }; });
+
+    CLI::App& diff = *app.add_subcommand("diff", "Compare two runs, or two EXR files of planes");
+    diff.add_option("before", line.before, "A run's folder, its run.json, or an .exr")->type_name("A")->required();
+    diff.add_option("after", line.after, "The same kind")->type_name("B")->required();
+    diff.add_flag("--json", line.diffJson, "As JSON");
+    diff.callback(
+        [&line] { line.verb = [&line] { return diffRuns(line.global, line.before, line.after, line.diffJson); }; });
+
+    CLI::App& review = *app.add_subcommand("review", "List golden expectations that failed, or record them");
+    review.add_option("--run", line.review.run, "The run to review; default: out/last")->type_name("DIR");
+    CLI::Option* const listFlag = review.add_flag("--list", line.reviewList, "List what failed (the default)");
+    review.add_option("--accept", line.review.accept, "Record the goldens of a case from the run's planes")
+        ->type_name("CASE")
+        ->excludes(listFlag);
+    review.add_option("--backend", line.review.backend, "Whose planes to record; default: the first that kept some")
+        ->type_name("NAME");
+    review.callback([&line] { line.verb = [&line] { return reviewGoldens(line.global, line.review); }; });
+}
+
+void addTools(CLI::App& app, CommandLine& line)
+{
+    CLI::App& compile = *app.add_subcommand("compile", "Compile a shader and print it in another language");
+    compile.add_option("shader", line.compile.shader, "A path, here or below the shader folder")
+        ->type_name("SHADER")
+        ->required();
+    compile.add_option("--target", line.compile.target, "spirv, glsl, essl, hlsl or msl; default: glsl")
+        ->type_name("LANGUAGE");
+    compile.add_option("-o,--output", line.compile.output, "A file instead of standard output")->type_name("FILE");
+    compile.add_option("--spec", line.compile.specialization, "Value of a specialization constant; may be repeated")
+        ->type_name("NAME=VALUE")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    compile.add_flag("--no-optimize", line.noOptimization, "Leave out the optimiser");
+    compile.add_flag("--assembly", line.compile.assembly, "SPIR-V as text also in a file");
+    compile.callback([&line] {
+        line.verb = [&line] {
+            line.compile.optimize = !line.noOptimization;
+            return compileShader(line.global, line.compile);
+        };
+    });
+
+    CLI::App& doctor = *app.add_subcommand("doctor", "Show which backends, compilers and folders are there");
+    doctor.callback([&line] { line.verb = [&line] { return diagnose(line.global); }; });
+
+    CLI::App& worker = *app.add_subcommand("worker", "Serve one backend; started by run")->group("");
+    worker.add_option("backend", line.workerBackend)->required();
+    worker.add_option("--request-fd", line.requestFd)->required();
+    worker.add_option("--reply-fd", line.replyFd)->required();
+    worker.add_flag("--validate", line.workerValidation);
+    worker.callback([&line] {
+        line.verb = [&line] {
+            return runWorker(line.workerBackend, line.requestFd, line.replyFd, line.workerValidation);
+        };
+    });
+}
+
+std::unique_ptr<CLI::App> makeApp(CommandLine& line)
+{
+    auto app = std::make_unique<CLI::App>(
+        "crossray: one shader, every backend, judged against data that no GPU produced", "crossray");
+    app->set_version_flag("--version", std::string(toolVersion()));
+    app->require_subcommand(1);
+    app->fallthrough();
+    GlobalOptions& global = line.global;
+    addChoice<ColorMode>(*app, "--color", global.color,
+                         {{"auto", ColorMode::kAuto}, {"always", ColorMode::kAlways}, {"never", ColorMode::kNever}},
+                         "auto: on a terminal; NO_COLOR wins");
+    app->add_option("--shaders", global.shaders, "The shader folder (CROSSRAY_SHADERS)")->type_name("DIR");
+    app->add_option("--cases", global.cases, "The case folder (CROSSRAY_CASES)")->type_name("DIR");
+    app->add_option("--cache-dir", global.cache, "The cache folder (CROSSRAY_CACHE)")->type_name("DIR");
+    addRun(*app, line);
+    addInspection(*app, line);
+    addTools(*app, line);
+    return app;
+}
+
+// CLI11's texts name the option and what is wrong; what is allowed is in the help.
+int printUsageError(const CLI::App& app, const CLI::ParseError& error)
+{
+    std::string text = error.what();
+    for (char& character : text) {
+        if (character == '\n') character = ' ';
+    }
+    const auto verbs = app.get_subcommands();
+    const std::string help = verbs.empty() ? "crossray --help" : "crossray " + verbs.front()->get_name() + " --help";
+    fmt::print(stderr, "crossray: {} (see {})\n", text, help);
+    return static_cast<int>(ExitCode::kUsage);
+}
+
+} // namespace
+
+int runCommandLine(int argc, const char* const* argv)
+{
+    CommandLine line;
+    line.global.commandLine.assign(argv, argv + argc);
+    const std::unique_ptr<CLI::App> app = makeApp(line);
+    try {
+        app->parse(argc, argv);
+    } catch (const CLI::Success& success) { // --help, --version
+        return app->exit(success);
+    } catch (const CLI::ParseError& error) {
+        return printUsageError(*app, error);
+    }
+    try {
+        return line.verb();
+    } catch (const Error& error) {
+        fmt::print(stderr, "{}{}\n", error.position().file.empty() ? "crossray: " : "", error.what());
+        return static_cast<int>(error.exitCode());
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "crossray: {}\n", error.what());
+        return static_cast<int>(ExitCode::kEnvironment);
+    }
+}
+
+std::vector<std::string> listOptions()
+{
+    CommandLine line;
+    const std::unique_ptr<CLI::App> app = makeApp(line);
+    std::vector<std::string> names;
+    auto collect = [&names](const CLI::App& owner, const std::string& prefix) {
+        for (const CLI::Option* option : owner.get_options()) {
+            for (const std::string& name : option->get_lnames())
+                names.push_back(prefix + "--" + name);
+            for (const std::string& name : option->get_snames())
+                names.push_back(prefix + "-" + name);
+        }
+    };
+    collect(*app, "");
+    for (const CLI::App* verb : app->get_subcommands([](const CLI::App*) { return true; })) {
+        if (verb->get_group().empty()) continue;
+        names.push_back(verb->get_name());
+        collect(*verb, verb->get_name() + " ");
+    }
+    return names;
+}
+
+} // namespace crossray

@@ -1,0 +1,20 @@
+// What a person reads of a failure: the worst thing first, and the next command to type.
+#pragma once
+
+#include "harness/cli/terminal.h"
+#include "harness/run/results.h"
+
+#include <string>
+
+namespace crossray {
+
+// Several lines, the last with a line break. `all`: every failed expectation, else the worst three.
+std::string formatFailure(const CaseResult& testCase, const BackendResult& result, const Style& style, bool all);
+
+// One word for one shell argument.
+std::string quoteForShell(const std::string& text);
+
+// "31, 12" and the like: a number as people read it, and a vector in brackets.
+std::string formatValues(const std::vector<double>& values, int digits);
+
+} // namespace crossray

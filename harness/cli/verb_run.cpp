@@ -1,0 +1,188 @@
+#include "harness/cli/verbs.h"
+#include "harness/run/environment.h"
+#include "harness/run/junit.h"
+#include "harness/run/plane_files.h"
+#include "harness/run/run_json.h"
+#include "harness/run/steps.h"
+#include "harness/run/verdict.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <future>
+#include <random>
+
+namespace crossray {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::atomic<bool> interrupted{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler writes it");
+
+extern "C" void handleInterrupt(int)
+{
+    if (interrupted.exchange(true)) _exit(static_cast<int>(ExitCode::kInterrupted)); // the second time at once
+}
+
+void catchInterrupts()
+{
+    struct sigaction action {};
+    action.sa_handler = handleInterrupt;
+    sigemptyset(&action.sa_mask);
+    action.sa_flags = SA_RESTART;
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+}
+
+std::string formatNow()
+{
+    const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+    return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now));
+}
+
+uint64_t peakMemoryOfTool()
+{
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+// Large cases early: one that comes last would leave the other cores idle. The first few stay in front, so that the
+// first verdict comes soon.
+void orderForThroughput(std::vector<Case>& cases)
+{
+    constexpr ptrdiff_t kFront = 4;
+    if (std::ssize(cases) <= kFront) return;
+    const auto pixels = [](const Case& testCase) { return int64_t{testCase.camera.width} * testCase.camera.height; };
+    std::stable_sort(cases.begin(), cases.end(), [&](const Case& a, const Case& b) { return pixels(a) < pixels(b); });
+    std::stable_sort(cases.begin() + kFront, cases.end(), [&](const Case& a, const Case& b) {
+        constexpr int64_t kLarge = 256 * 256; // small ones keep their order
+        return std::max(pixels(a), kLarge) > std::max(pixels(b), kLarge);
+    });
+}
+
+void orderCases(std::vector<Case>& cases, const std::optional<uint64_t>& seed)
+{
+    if (!seed) return orderForThroughput(cases);
+    std::mt19937_64 generator(*seed);
+    for (size_t i = cases.size(); i > 1; --i) // std::shuffle may differ from library to library
+        std::swap(cases[i - 1], cases[generator() % i]);
+}
+
+void printSummary(const RunResult& run, const RunOptions& options, const Style& style, FILE* text)
+{
+    const RunCounts counts = countVerdicts(run);
+    if (!options.quiet) {
+        fmt::print(text, "\n");
+        for (const auto& [name, record] : run.backends) {
+            const Fingerprint& print = record.fingerprint;
+            fmt::print(text, "{:<12} {}\n", name,
+                       record.environmentError.empty()
+                           ? fmt::format("{}, {}, {}", print.device, print.driver, print.api)
+                           : style.paint(Ink::kRed, record.environmentError));
+        }
+        std::string others;
+        for (const auto& [verdict, count] : counts.byVerdict) {
+            if (verdict != Verdict::kPass) others += fmt::format(", {} {}", count, nameOf(verdict));
+        }
+        fmt::print(text, "{} cases on {} backends in {:.1f} s{}; results in {}/run.json\n", run.cases.size(),
+                   run.backends.size(), run.seconds, others, options.output);
+    }
+    for (const std::string& line : run.brokenFiles)
+        fmt::print(text, "{} {}\n", style.paint(Ink::kRed, "broken:"), line);
+    if (run.interrupted) fmt::print(text, "{}\n", style.paint(Ink::kYellow, "interrupted"));
+    if (run.stoppedEarly) fmt::print(text, "{}\n", style.paint(Ink::kYellow, "stopped early"));
+}
+
+void writeResults(const RunResult& run, const RunOptions& options)
+{
+    const std::string json = formatRunJson(run);
+    writeFileWhole(fs::path(options.output) / "run.json", json);
+    if (!options.junit.empty()) writeFileWhole(options.junit, formatJunit(run));
+}
+
+RunResult describeRun(const GlobalOptions& global, const RunOptions& options, int cores)
+{
+    RunResult run;
+    run.version = toolVersion();
+    run.started = formatNow();
+    run.commandLine = global.commandLine;
+    run.validation = options.validation;
+    run.cores = cores;
+    run.repeat = options.repeat;
+    run.seed = options.seed;
+    run.shard = options.selection.shard;
+    run.compilers = ShaderCompiler::versions();
+    return run;
+}
+
+} // namespace
+
+int runCases(const GlobalOptions& global, const RunOptions& options)
+{
+    const Folders folders = findFolders(global.shaders, global.cases, global.cache);
+    SelectedCases selected = selectCases(options.selection, folders.cases, options.output, options.keepGoing);
+    if (selected.exitCode) return static_cast<int>(*selected.exitCode);
+    orderCases(selected.cases, options.seed);
+
+    const std::vector<BackendInfo> known = listBackends();
+    const BackendChoice backends = chooseBackends(options.backends, known);
+    if (!options.quiet) {
+        for (const std::string& note : backends.notes)
+            fmt::print(stderr, "crossray: {}\n", note);
+    }
+    startRunFolder(options.output);
+    catchInterrupts();
+    // git takes some milliseconds of its own; nobody waits for it before the end.
+    std::future<Commit> commit = std::async(std::launch::async, [&] { return findCommit(folders.shaders); });
+
+    const int cores = options.cores > 0 ? options.cores : countAvailableCores();
+    FILE* const text = options.json ? stderr : stdout; // JSON stands alone on standard output
+    const Style style = Style::choose(global.color, fileno(text));
+    RunResult run = describeRun(global, options, cores);
+    run.brokenFiles = selected.broken;
+    Progress progress({chooseProgress(options.progress), options.quiet, options.verbose, text, stderr, style,
+                       selected.cases.size(), selected.cases.size() * backends.names.size()});
+    {
+        WorkerPool pool({options.validation, folders.cache / "mesa", cores});
+        ShaderCompiler compiler(folders.cache / "spirv");
+        ExecuteOptions execution;
+        execution.backends = backends.names;
+        execution.cores = cores;
+        execution.repeat = options.repeat;
+        execution.maxFailures = options.maxFailures;
+        execution.keepGoing = options.keepGoing;
+        execution.timeoutSeconds = options.timeoutSeconds;
+        execution.keepPlanes = options.planes;
+        execution.outputFolder = options.output;
+        execution.today = formatToday();
+        execution.processStart = global.processStart;
+        execute(selected.cases, execution, makeSteps(pool, compiler, folders.shaders, backends.names), progress,
+                interrupted, run);
+        run.workersPeakBytes = pool.peakMemory();
+    }
+    progress.clearBar();
+    run.toolPeakBytes = peakMemoryOfTool();
+    const Commit found = commit.get();
+    run.commit = found.hash;
+    run.modified = found.modified;
+    // Cases came in the order that suits the cores; people and diffs want one order.
+    std::sort(run.cases.begin(), run.cases.end(),
+              [](const CaseResult& a, const CaseResult& b) { return a.name < b.name; });
+    run.exitCode = static_cast<int>(computeExitCode(run));
+    writeResults(run, options);
+    if (options.github) fmt::print(text, "{}", formatGithubAnnotations(run));
+    printSummary(run, options, style, text);
+    if (options.json) fmt::print("{}", formatSummaryJson(run));
+    fmt::print(text, "{}\n", formatCounts(countVerdicts(run)));
+    return run.exitCode;
+}
+
+} // namespace crossray

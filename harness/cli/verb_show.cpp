@@ -1,0 +1,202 @@
+#include "harness/cli/verbs.h"
+#include "harness/run/case_judge.h"
+#include "harness/run/environment.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <unistd.h>
+
+#include <algorithm>
+
+namespace crossray {
+
+namespace {
+
+std::string_view nameOf(PrimitiveShape shape)
+{
+    switch (shape) {
+    case PrimitiveShape::kPlane:
+        return "plane";
+    case PrimitiveShape::kSphere:
+        return "sphere";
+    case PrimitiveShape::kBox:
+        return "box";
+    }
+    return "";
+}
+
+std::string_view nameOf(RefractionModel model)
+{
+    switch (model) {
+    case RefractionModel::kNone:
+        return "none";
+    case RefractionModel::kSphere:
+        return "sphere";
+    case RefractionModel::kBox:
+        return "box";
+    case RefractionModel::kThin:
+        return "thin";
+    }
+    return "";
+}
+
+std::string_view nameOf(Where where)
+{
+    switch (where) {
+    case Where::kTraced:
+        return "traced pixels";
+    case Where::kAll:
+        return "all pixels";
+    case Where::kAnswerable:
+        return "answerable pixels";
+    case Where::kAnswerableHits:
+        return "answerable pixels that hit";
+    case Where::kHits:
+        return "pixels that hit";
+    }
+    return "";
+}
+
+std::string formatVector(const glm::dvec3& v)
+{
+    return fmt::format("({:g}, {:g}, {:g})", v.x, v.y, v.z);
+}
+
+std::string formatCamera(const Camera& camera)
+{
+    const bool isPerspective = camera.projection == ProjectionKind::kPerspective;
+    const std::string_view convention = camera.depthConvention == DepthConvention::kReversed   ? "reversed"
+                                        : camera.depthConvention == DepthConvention::kStandard ? "standard"
+                                                                                               : "infinite reversed";
+    const std::string view = isPerspective ? fmt::format("perspective, {:g} degrees high", camera.fovYDegrees)
+                                           : fmt::format("orthographic, {:g} m high", camera.orthographicHeight);
+    return fmt::format("{}x{}, {}, eye {}, near {:g} m, far {:g} m, {} depth in {}", camera.width, camera.height, view,
+                       formatVector(glm::dvec3(camera.worldFromView[3])), camera.nearDistance, camera.farDistance,
+                       convention, camera.ndcDepthRange == NdcDepthRange::kZeroToOne ? "[0,1]" : "[-1,1]");
+}
+
+void printScene(const Case& testCase)
+{
+    if (testCase.recorded) {
+        fmt::print("scene      {} (recorded)\n", testCase.recorded->file.string());
+        fmt::print("           camera {}\n", testCase.recorded->cameraFile.string());
+        if (!testCase.recorded->truthFile.empty())
+            fmt::print("           truth {}\n", testCase.recorded->truthFile.string());
+        return;
+    }
+    const char* label = "scene";
+    for (const Primitive& primitive : testCase.scene.primitives) {
+        std::string size;
+        if (primitive.shape == PrimitiveShape::kSphere) size = fmt::format(", radius {:g} m", primitive.radius);
+        if (primitive.shape == PrimitiveShape::kBox) size = ", half extents " + formatVector(primitive.halfExtents);
+        fmt::print("{:<10} {} at {}{}, {}\n", label, nameOf(primitive.shape), formatVector(primitive.center), size,
+                   primitive.material);
+        label = "";
+    }
+    if (testCase.scene.primitives.empty()) fmt::print("scene      nothing but the sky\n");
+}
+
+void printProjection(const Projection& projection)
+{
+    const ProxyVolume& proxy = projection.proxy;
+    switch (projection.model) {
+    case ProjectionModel::kNone:
+        fmt::print("projection none: the ray alone\n");
+        return;
+    case ProjectionModel::kProxyInfinite:
+        fmt::print("projection proxy, infinite");
+        break;
+    case ProjectionModel::kProxyBox:
+        fmt::print("projection proxy, box at {}, half extents {}", formatVector(proxy.center),
+                   formatVector(proxy.halfExtents));
+        break;
+    case ProjectionModel::kProxySphere:
+        fmt::print("projection proxy, sphere at {}, radius {:g} m", formatVector(proxy.center), proxy.radius);
+        break;
+    case ProjectionModel::kHiz:
+        fmt::print("projection HiZ, levels {} to {}, {} iterations, depth bias {:g} m", projection.hiz.minLevel,
+                   projection.hiz.maxLevel, projection.hiz.maxIterations, projection.hiz.depthBias);
+        break;
+    }
+    fmt::print(", screen weight over {:g}\n", projection.screenWeightDistance);
+}
+
+void printExpectations(const Case& testCase)
+{
+    const char* label = "expects";
+    for (const Expectation& expectation : testCase.expectations) {
+        const std::string on =
+            expectation.backends.empty() ? "" : fmt::format(" on {}", fmt::join(expectation.backends, ", "));
+        fmt::print("{:<10} {}: {}, {}, {}{}   {}\n", label, expectation.output.name, describeSource(expectation.source),
+                   describeTolerance(expectation), nameOf(expectation.where), on, expectation.position.format());
+        label = "";
+    }
+}
+
+void printBackends(const Case& testCase, const std::vector<std::string>& wanted)
+{
+    const char* label = "backends";
+    for (const BackendInfo& info : listBackends()) {
+        const bool isAskedFor = wanted.empty() ? info.byDefault
+                                               : std::find(wanted.begin(), wanted.end(), info.name) != wanted.end() ||
+                                                     std::find(wanted.begin(), wanted.end(), "all") != wanted.end();
+        const bool isNamed = testCase.backends.empty() || std::find(testCase.backends.begin(), testCase.backends.end(),
+                                                                    info.name) != testCase.backends.end();
+        std::string what = "runs";
+        if (!isAskedFor) what = "not asked for";
+        if (!isNamed) what = "skipped: the case does not name this backend";
+        if (!info.found) what = "not there: " + info.missing;
+        fmt::print("{:<10} {:<12} {}\n", label, info.name, what);
+        label = "";
+    }
+    for (const KnownFailure& known : testCase.knownFailures) {
+        fmt::print("{:<10} {} until {} on {}: {}\n", "known", known.issue, known.until,
+                   known.backends.empty() ? "all" : fmt::format("{}", fmt::join(known.backends, ", ")), known.reason);
+    }
+}
+
+void printCase(const Case& testCase, const ShowOptions& options, const Style& style)
+{
+    fmt::print("{}\n{}\n", style.paint(Ink::kBold, testCase.name), testCase.summary);
+    fmt::print("file       {}\n", testCase.position.file.empty() ? testCase.file.string() : testCase.position.format());
+    if (!testCase.tags.empty()) fmt::print("tags       {}\n", fmt::join(testCase.tags, ", "));
+    printScene(testCase);
+    fmt::print("camera     {}\n", formatCamera(testCase.camera));
+    const Material& material = testCase.material;
+    if (testCase.effect == TraceEffect::kReflection) {
+        fmt::print("effect     reflection, roughness {:g}\n", material.roughness);
+    } else {
+        fmt::print("effect     refraction, {} model, index {:g}, thickness {:g} m x {:g}, roughness {:g}\n",
+                   nameOf(material.refractionModel), material.ior, material.thickness, material.thicknessMultiplier,
+                   material.roughness);
+    }
+    printProjection(testCase.projection);
+    std::vector<std::string_view> outputs;
+    for (const OutputInfo& output : testCase.outputs)
+        outputs.push_back(output.name);
+    fmt::print("outputs    {}\n", fmt::join(outputs, ", "));
+    printExpectations(testCase);
+    if (testCase.mustFail) fmt::print("must fail  passes when the judge fails each of its expectations\n");
+    fmt::print("timeout    {:g} s\n", testCase.timeoutSeconds);
+    printBackends(testCase, options.backends);
+}
+
+} // namespace
+
+int showCase(const GlobalOptions& global, const ShowOptions& options)
+{
+    const Folders folders = findFolders(global.shaders, global.cases, global.cache);
+    const SelectedCases selected = selectCases({{options.testCase}, {}, {}, {}, false}, folders.cases, {}, false);
+    if (selected.exitCode) return static_cast<int>(*selected.exitCode);
+    const Style style = Style::choose(global.color, STDOUT_FILENO);
+    bool isFirst = true;
+    for (const Case& testCase : selected.cases) {
+        if (!isFirst) fmt::print("\n");
+        isFirst = false;
+        printCase(testCase, options, style);
+    }
+    return static_cast<int>(ExitCode::kAsExpected);
+}
+
+} // namespace crossray

@@ -1,0 +1,91 @@
+// The verbs of the command line: each takes its options and returns its exit code. Errors are thrown; the caller prints
+// them.
+#pragma once
+
+#include "harness/cli/progress.h"
+#include "harness/cli/terminal.h"
+#include "harness/run/execute.h"
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace crossray {
+
+struct GlobalOptions {
+    ColorMode color = ColorMode::kAuto;
+    std::string shaders, cases, cache; // folders; empty: found
+    std::vector<std::string> commandLine;
+    std::chrono::steady_clock::time_point processStart = std::chrono::steady_clock::now();
+};
+
+struct SelectionOptions {
+    std::vector<std::string> arguments;
+    std::string expression;
+    std::vector<std::string> tags;
+    std::string shard;
+    bool lastFailed = false;
+};
+
+struct RunOptions {
+    SelectionOptions selection;
+    std::vector<std::string> backends;
+    int cores = 0; // 0: all there are
+    int maxFailures = 0;
+    bool keepGoing = false;
+    std::optional<double> timeoutSeconds;
+    int repeat = 1;
+    std::optional<uint64_t> seed; // order of the cases
+    bool validation = false;
+    KeepPlanes planes = KeepPlanes::kFailed;
+    std::string output = "out/last";
+    std::string junit;
+    bool json = false;
+    bool github = false;
+    ProgressMode progress = ProgressMode::kAuto;
+    bool quiet = false, verbose = false;
+};
+int runCases(const GlobalOptions& global, const RunOptions& options);
+
+int listCases(const GlobalOptions& global, const SelectionOptions& selection, bool json);
+
+struct ShowOptions {
+    std::string testCase;
+    std::vector<std::string> backends;
+};
+int showCase(const GlobalOptions& global, const ShowOptions& options);
+
+struct CompileVerbOptions {
+    std::string shader;
+    std::string target = "glsl";
+    std::string output;                      // empty: standard output
+    std::vector<std::string> specialization; // NAME=VALUE
+    bool optimize = true;
+    bool assembly = false; // SPIR-V as text
+};
+int compileShader(const GlobalOptions& global, const CompileVerbOptions& options);
+
+int diffRuns(const GlobalOptions& global, const std::string& before, const std::string& after, bool json);
+
+struct ReviewOptions {
+    std::string run = "out/last";
+    std::string accept; // a case's name; empty: list
+    std::string backend;
+};
+int reviewGoldens(const GlobalOptions& global, const ReviewOptions& options);
+
+int diagnose(const GlobalOptions& global);
+
+// Cases for a command line: prints what is wrong with it to standard error. `keepGoing` lets broken files pass. The
+// exit code is set when there is nothing to go on with.
+struct SelectedCases {
+    std::vector<Case> cases;
+    std::vector<std::string> broken; // one line each
+    std::optional<ExitCode> exitCode;
+};
+SelectedCases selectCases(const SelectionOptions& options, const std::string& caseRoot, const std::string& lastRun,
+                          bool keepGoing);
+
+} // namespace crossray

@@ -1,0 +1,434 @@
+#include "harness/run/run_json.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <set>
+#include <sstream>
+
+namespace crossray {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+Json numberToJson(double value)
+{
+    if (std::isnan(value)) return "NaN";
+    if (std::isinf(value)) return value > 0 ? "Infinity" : "-Infinity";
+    return value;
+}
+
+double numberFromJson(const Json& json)
+{
+    if (!json.is_string()) return json.get<double>();
+    const std::string text = json.get<std::string>();
+    if (text == "NaN") return std::numeric_limits<double>::quiet_NaN();
+    const double infinity = std::numeric_limits<double>::infinity();
+    if (text == "Infinity") return infinity;
+    if (text == "-Infinity") return -infinity;
+    throw InputError(fmt::format("\"{}\" is no number; allowed are numbers, NaN, Infinity and -Infinity", text));
+}
+
+Json numbersToJson(const std::vector<double>& values)
+{
+    Json json = Json::array();
+    for (const double value : values)
+        json.push_back(numberToJson(value));
+    return json;
+}
+
+std::vector<double> numbersFromJson(const Json& json)
+{
+    std::vector<double> values;
+    for (const Json& value : json)
+        values.push_back(numberFromJson(value));
+    return values;
+}
+
+Json positionToJson(const SourcePosition& position)
+{
+    return {{"file", position.file}, {"line", position.line}, {"column", position.column}};
+}
+
+SourcePosition positionFromJson(const Json& json)
+{
+    return {json.at("file").get<std::string>(), json.at("line").get<int>(), json.at("column").get<int>()};
+}
+
+Json comparisonToJson(const Comparison& comparison)
+{
+    Json json{{"passed", comparison.passed},
+              {"reason", comparison.reason},
+              {"unit", comparison.unit},
+              {"compared", comparison.compared},
+              {"failed", comparison.failed},
+              {"median", numberToJson(comparison.median)},
+              {"p95", numberToJson(comparison.p95)},
+              {"p99", numberToJson(comparison.p99)},
+              {"max", numberToJson(comparison.max)},
+              {"mean", numberToJson(comparison.mean)},
+              {"census", comparison.census}};
+    if (comparison.worst) {
+        const PixelDifference& worst = *comparison.worst;
+        json["worst"] = {{"x", worst.x},
+                         {"y", worst.y},
+                         {"expected", numbersToJson(worst.expected)},
+                         {"actual", numbersToJson(worst.actual)},
+                         {"error", numberToJson(worst.error)}};
+    }
+    if (comparison.confusion) json["confusion"] = comparison.confusion->counts;
+    Json metrics = Json::object();
+    for (const auto& [name, value] : comparison.metrics)
+        metrics[name] = numberToJson(value);
+    json["metrics"] = std::move(metrics);
+    return json;
+}
+
+Comparison comparisonFromJson(const Json& json)
+{
+    Comparison comparison;
+    comparison.passed = json.at("passed").get<bool>();
+    comparison.reason = json.at("reason").get<std::string>();
+    comparison.unit = json.at("unit").get<std::string>();
+    comparison.compared = json.at("compared").get<uint64_t>();
+    comparison.failed = json.at("failed").get<uint64_t>();
+    comparison.median = numberFromJson(json.at("median"));
+    comparison.p95 = numberFromJson(json.at("p95"));
+    comparison.p99 = numberFromJson(json.at("p99"));
+    comparison.max = numberFromJson(json.at("max"));
+    comparison.mean = numberFromJson(json.at("mean"));
+    comparison.census = json.at("census").get<std::map<std::string, uint64_t>>();
+    if (json.contains("worst")) {
+        const Json& worst = json.at("worst");
+        comparison.worst =
+            PixelDifference{worst.at("x").get<int>(), worst.at("y").get<int>(), numbersFromJson(worst.at("expected")),
+                            numbersFromJson(worst.at("actual")), numberFromJson(worst.at("error"))};
+    }
+    if (json.contains("confusion")) {
+        comparison.confusion.emplace();
+        for (size_t expected = 0; expected < 4; ++expected) {
+            for (size_t actual = 0; actual < 4; ++actual)
+                comparison.confusion->counts[expected][actual] =
+                    json.at("confusion").at(expected).at(actual).get<uint64_t>();
+        }
+    }
+    for (const auto& [name, value] : json.at("metrics").items())
+        comparison.metrics[name] = numberFromJson(value);
+    return comparison;
+}
+
+Json expectationToJson(const ExpectationResult& expectation)
+{
+    Json json{{"index", expectation.index},         {"output", expectation.output},
+              {"source", expectation.source},       {"position", positionToJson(expectation.position)},
+              {"tolerance", expectation.tolerance}, {"judged", expectation.judged},
+              {"note", expectation.note},           {"missingGolden", expectation.missingGolden}};
+    if (expectation.judged) json["comparison"] = comparisonToJson(expectation.comparison);
+    return json;
+}
+
+ExpectationResult expectationFromJson(const Json& json)
+{
+    ExpectationResult expectation;
+    expectation.index = json.at("index").get<size_t>();
+    expectation.output = json.at("output").get<std::string>();
+    expectation.source = json.at("source").get<std::string>();
+    expectation.position = positionFromJson(json.at("position"));
+    expectation.tolerance = json.at("tolerance").get<std::string>();
+    expectation.judged = json.at("judged").get<bool>();
+    expectation.note = json.at("note").get<std::string>();
+    expectation.missingGolden = json.at("missingGolden").get<bool>();
+    if (expectation.judged) expectation.comparison = comparisonFromJson(json.at("comparison"));
+    return expectation;
+}
+
+Json timesToJson(const StageTimes& times)
+{
+    return {{"program", times.program},   {"upload", times.upload}, {"dispatch", times.dispatch},
+            {"readback", times.readback}, {"device", times.device}, {"worker", times.worker},
+            {"judge", times.judge}};
+}
+
+StageTimes timesFromJson(const Json& json)
+{
+    StageTimes times;
+    times.program = json.at("program").get<double>();
+    times.upload = json.at("upload").get<double>();
+    times.dispatch = json.at("dispatch").get<double>();
+    times.readback = json.at("readback").get<double>();
+    times.device = json.at("device").get<double>();
+    times.worker = json.at("worker").get<double>();
+    times.judge = json.at("judge").get<double>();
+    return times;
+}
+
+Verdict verdictFromJson(const Json& json)
+{
+    const std::string name = json.get<std::string>();
+    if (const auto verdict = findVerdict(name)) return *verdict;
+    throw InputError(fmt::format("\"{}\" is no verdict", name));
+}
+
+Json backendResultToJson(const BackendResult& result)
+{
+    Json json{{"backend", result.backend},
+              {"verdict", nameOf(result.verdict)},
+              {"reason", result.reason},
+              {"times", timesToJson(result.times)},
+              {"programsWereWarm", result.programsWereWarm},
+              {"messages", result.messages},
+              {"logLines", result.logLines},
+              {"planes", result.planesFile}};
+    Json expectations = Json::array();
+    for (const ExpectationResult& expectation : result.expectations)
+        expectations.push_back(expectationToJson(expectation));
+    json["expectations"] = std::move(expectations);
+    return json;
+}
+
+BackendResult backendResultFromJson(const Json& json)
+{
+    BackendResult result;
+    result.backend = json.at("backend").get<std::string>();
+    result.verdict = verdictFromJson(json.at("verdict"));
+    result.reason = json.at("reason").get<std::string>();
+    result.times = timesFromJson(json.at("times"));
+    result.programsWereWarm = json.at("programsWereWarm").get<bool>();
+    result.messages = json.at("messages").get<std::vector<std::string>>();
+    result.logLines = json.at("logLines").get<std::vector<std::string>>();
+    result.planesFile = json.at("planes").get<std::string>();
+    for (const Json& expectation : json.at("expectations"))
+        result.expectations.push_back(expectationFromJson(expectation));
+    return result;
+}
+
+Json caseToJson(const CaseResult& testCase)
+{
+    Json json{{"name", testCase.name},
+              {"summary", testCase.summary},
+              {"tags", testCase.tags},
+              {"position", positionToJson(testCase.position)},
+              {"width", testCase.width},
+              {"height", testCase.height},
+              {"mustFail", testCase.mustFail},
+              {"times", {{"prepare", testCase.prepareMs}, {"compile", testCase.compileMs}}},
+              {"expected", testCase.expectedFile}};
+    Json backends = Json::array();
+    for (const BackendResult& result : testCase.backends)
+        backends.push_back(backendResultToJson(result));
+    json["backends"] = std::move(backends);
+    return json;
+}
+
+CaseResult caseFromJson(const Json& json)
+{
+    CaseResult testCase;
+    testCase.name = json.at("name").get<std::string>();
+    testCase.summary = json.at("summary").get<std::string>();
+    testCase.tags = json.at("tags").get<std::vector<std::string>>();
+    testCase.position = positionFromJson(json.at("position"));
+    testCase.width = json.at("width").get<int>();
+    testCase.height = json.at("height").get<int>();
+    testCase.mustFail = json.at("mustFail").get<bool>();
+    testCase.prepareMs = json.at("times").at("prepare").get<double>();
+    testCase.compileMs = json.at("times").at("compile").get<double>();
+    testCase.expectedFile = json.at("expected").get<std::string>();
+    for (const Json& result : json.at("backends"))
+        testCase.backends.push_back(backendResultFromJson(result));
+    return testCase;
+}
+
+Json backendRecordToJson(const BackendRecord& record)
+{
+    const Fingerprint& print = record.fingerprint;
+    return {{"api", print.api},
+            {"device", print.device},
+            {"driver", print.driver},
+            {"llvm", print.llvm},
+            {"cpu", print.cpu},
+            {"startMs", record.startMs},
+            {"environmentError", record.environmentError}};
+}
+
+BackendRecord backendRecordFromJson(const std::string& name, const Json& json)
+{
+    BackendRecord record;
+    Fingerprint& print = record.fingerprint;
+    print.backend = name;
+    print.api = json.at("api").get<std::string>();
+    print.device = json.at("device").get<std::string>();
+    print.driver = json.at("driver").get<std::string>();
+    print.llvm = json.at("llvm").get<std::string>();
+    print.cpu = json.at("cpu").get<std::string>();
+    record.startMs = json.at("startMs").get<double>();
+    record.environmentError = json.at("environmentError").get<std::string>();
+    return record;
+}
+
+Json headToJson(const RunResult& run)
+{
+    const RunCounts counts = countVerdicts(run);
+    Json byVerdict = Json::object();
+    for (const auto& [verdict, count] : counts.byVerdict)
+        byVerdict[std::string(nameOf(verdict))] = count;
+    Json json{{"schema", kRunSchema},
+              {"version", run.version},
+              {"commit", run.commit},
+              {"modified", run.modified},
+              {"started", run.started},
+              {"seconds", run.seconds},
+              {"firstVerdictMs", run.firstVerdictMs},
+              {"interrupted", run.interrupted},
+              {"stoppedEarly", run.stoppedEarly},
+              {"exitCode", run.exitCode},
+              {"counts", {{"passed", counts.passed}, {"failed", counts.failed}, {"skipped", counts.skipped}}},
+              {"verdicts", std::move(byVerdict)},
+              {"commandLine", run.commandLine},
+              {"validation", run.validation},
+              {"cores", run.cores},
+              {"repeat", run.repeat},
+              {"seed", run.seed ? Json(*run.seed) : Json(nullptr)},
+              {"shard", run.shard},
+              {"compilers", run.compilers},
+              {"toolPeakBytes", run.toolPeakBytes},
+              {"workersPeakBytes", run.workersPeakBytes},
+              {"brokenFiles", run.brokenFiles}};
+    Json backends = Json::object();
+    for (const auto& [name, record] : run.backends)
+        backends[name] = backendRecordToJson(record);
+    json["backends"] = std::move(backends);
+    return json;
+}
+
+RunResult runFromJson(const Json& json)
+{
+    RunResult run;
+    run.version = json.at("version").get<std::string>();
+    run.commit = json.at("commit").get<std::string>();
+    run.modified = json.at("modified").get<bool>();
+    run.started = json.at("started").get<std::string>();
+    run.seconds = json.at("seconds").get<double>();
+    run.firstVerdictMs = json.at("firstVerdictMs").get<double>();
+    run.interrupted = json.at("interrupted").get<bool>();
+    run.stoppedEarly = json.at("stoppedEarly").get<bool>();
+    run.exitCode = json.at("exitCode").get<int>();
+    run.commandLine = json.at("commandLine").get<std::vector<std::string>>();
+    run.validation = json.at("validation").get<bool>();
+    run.cores = json.at("cores").get<int>();
+    run.repeat = json.at("repeat").get<int>();
+    if (!json.at("seed").is_null()) run.seed = json.at("seed").get<uint64_t>();
+    run.shard = json.at("shard").get<std::string>();
+    run.compilers = json.at("compilers").get<std::map<std::string, std::string>>();
+    run.toolPeakBytes = json.at("toolPeakBytes").get<uint64_t>();
+    run.workersPeakBytes = json.at("workersPeakBytes").get<uint64_t>();
+    run.brokenFiles = json.at("brokenFiles").get<std::vector<std::string>>();
+    for (const auto& [name, record] : json.at("backends").items())
+        run.backends[name] = backendRecordFromJson(name, record);
+    for (const Json& testCase : json.at("cases"))
+        run.cases.push_back(caseFromJson(testCase));
+    return run;
+}
+
+void collectFields(const Json& json, const std::string& prefix, std::set<std::string>& fields)
+{
+    // Objects whose keys are data, not fields.
+    static const std::set<std::string> kMaps{"verdicts", "compilers", "backends",
+                                             "cases[].backends[].expectations[].comparison.census",
+                                             "cases[].backends[].expectations[].comparison.metrics"};
+    if (json.is_array()) {
+        if (!json.empty() && json.front().is_object()) collectFields(json.front(), prefix + "[]", fields);
+        return;
+    }
+    for (const auto& [key, value] : json.items()) {
+        const bool isData = kMaps.contains(prefix);
+        const std::string name = isData ? prefix + ".*" : prefix.empty() ? key : prefix + "." + key;
+        fields.insert(name);
+        if (value.is_structured()) collectFields(value, name, fields);
+    }
+}
+
+} // namespace
+
+std::string formatRunJson(const RunResult& run)
+{
+    Json json = headToJson(run);
+    Json cases = Json::array();
+    for (const CaseResult& testCase : run.cases)
+        cases.push_back(caseToJson(testCase));
+    json["cases"] = std::move(cases);
+    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+RunResult parseRunJson(std::string_view text, const std::string& name)
+{
+    try {
+        const Json json = Json::parse(text);
+        const std::string schema = json.is_object() ? json.value("schema", "") : "";
+        if (schema != kRunSchema) {
+            throw InputError(fmt::format("the schema is \"{}\"; this version reads \"{}\"", schema, kRunSchema));
+        }
+        return runFromJson(json);
+    } catch (const Json::exception& error) {
+        throw InputError({name, 0, 0}, fmt::format("is no run.json: {}", error.what()));
+    } catch (const InputError& error) {
+        throw InputError({name, 0, 0}, error.what());
+    }
+}
+
+std::filesystem::path findRunJson(const std::filesystem::path& path)
+{
+    std::error_code failure;
+    return std::filesystem::is_directory(path, failure) ? path / "run.json" : path;
+}
+
+RunResult readRun(const std::filesystem::path& path)
+{
+    const std::filesystem::path file = findRunJson(path);
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream)
+        throw InputError({file.string(), 0, 0}, "there is no such file; allowed is a run's folder or its run.json");
+    std::ostringstream content;
+    content << stream.rdbuf();
+    return parseRunJson(content.str(), file.string());
+}
+
+std::vector<std::string> listRunJsonFields()
+{
+    RunResult run;
+    run.backends["lavapipe"];
+    run.compilers["glslang"];
+    CaseResult& testCase = run.cases.emplace_back();
+    BackendResult& result = testCase.backends.emplace_back();
+    ExpectationResult& expectation = result.expectations.emplace_back();
+    expectation.judged = true;
+    expectation.comparison.worst.emplace();
+    expectation.comparison.confusion.emplace();
+    expectation.comparison.census["beyond tolerance"] = 1;
+    expectation.comparison.metrics["recall"] = 1;
+    std::set<std::string> fields;
+    collectFields(Json::parse(formatRunJson(run)), "", fields);
+    return {fields.begin(), fields.end()};
+}
+
+std::string formatSummaryJson(const RunResult& run)
+{
+    Json json = headToJson(run);
+    Json notPassed = Json::array();
+    for (const CaseResult& testCase : run.cases) {
+        for (const BackendResult& result : testCase.backends) {
+            if (result.verdict == Verdict::kPass) continue;
+            notPassed.push_back({{"case", testCase.name},
+                                 {"backend", result.backend},
+                                 {"verdict", nameOf(result.verdict)},
+                                 {"reason", result.reason}});
+        }
+    }
+    json["notPassed"] = std::move(notPassed);
+    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+} // namespace crossray

@@ -1,0 +1,93 @@
+#include "harness/run/run_json.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+using namespace crossray;
+
+namespace {
+
+RunResult makeRun()
+{
+    RunResult run;
+    run.version = "0.1.0";
+    run.commit = "abc";
+    run.modified = true;
+    run.started = "2026-01-31T12:00:00Z";
+    run.seconds = 1.5;
+    run.seed = 7;
+    run.shard = "1/2";
+    run.commandLine = {"crossray", "run"};
+    run.compilers = {{"glslang", "12.0.0"}};
+    run.backends["osmesa"].fingerprint = {"osmesa", "OpenGL 4.5", "llvmpipe", "Mesa", "15", "cpu"};
+    CaseResult& testCase = run.cases.emplace_back();
+    testCase.name = "hiz/two_planes[ior=1.2]";
+    testCase.position = {"cases/a.toml", 3, 1};
+    BackendResult& result = testCase.backends.emplace_back();
+    result.backend = "osmesa";
+    result.verdict = Verdict::kFail;
+    result.times.dispatch = 0.25;
+    ExpectationResult& expectation = result.expectations.emplace_back();
+    expectation.judged = true;
+    expectation.output = "HitDepth";
+    expectation.position = {"cases/a.toml", 21, 1};
+    Comparison& comparison = expectation.comparison;
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    comparison.worst = PixelDifference{31, 12, {2.5}, {nan}, std::numeric_limits<double>::infinity()};
+    comparison.census = {{"NaN for finite", 37}};
+    comparison.confusion.emplace().counts[1][2] = 5;
+    comparison.metrics = {{"recall", 0.97}};
+    comparison.p99 = 1.0 / 3.0;
+    return run;
+}
+
+} // namespace
+
+TEST(RunJson, readsBackWhatItWrote)
+{
+    const std::string text = formatRunJson(makeRun());
+    const RunResult run = parseRunJson(text, "run.json");
+    EXPECT_EQ(formatRunJson(run), text);
+    const Comparison& comparison = run.cases.at(0).backends.at(0).expectations.at(0).comparison;
+    EXPECT_TRUE(std::isnan(comparison.worst->actual.at(0)));
+    EXPECT_TRUE(std::isinf(comparison.worst->error));
+    EXPECT_EQ(comparison.confusion->counts[1][2], 5u);
+    EXPECT_EQ(comparison.p99, 1.0 / 3.0);
+    EXPECT_EQ(run.seed, 7u);
+    EXPECT_EQ(run.cases[0].backends[0].verdict, Verdict::kFail);
+}
+
+TEST(RunJson, refusesOtherSchemasAndBrokenText)
+{
+    const std::string text = formatRunJson(makeRun());
+    EXPECT_THROW(parseRunJson("", "a"), InputError);
+    EXPECT_THROW(parseRunJson("[]", "a"), InputError);
+    EXPECT_THROW(parseRunJson("{\"schema\": \"crossray-run/2\"}", "a"), InputError);
+    EXPECT_THROW(parseRunJson("{\"schema\": \"crossray-run/1\"}", "a"), InputError);
+    EXPECT_THROW(parseRunJson(text.substr(0, text.size() / 2), "a"), InputError);
+    std::string odd = text;
+    odd.replace(odd.rfind("\"fail\""), 6, "\"what\"");
+    EXPECT_THROW(parseRunJson(odd, "a"), InputError);
+    EXPECT_THROW(readRun("/nonexistent/run.json"), InputError);
+}
+
+TEST(RunJson, isValidJsonWhateverBytesADriverSays)
+{
+    RunResult run = makeRun();
+    run.cases[0].backends[0].logLines = {"\xff\xfe broken UTF-8"};
+    EXPECT_NO_THROW(parseRunJson(formatRunJson(run), "a"));
+}
+
+TEST(RunJson, everyFieldIsDocumented)
+{
+    std::ifstream stream(CROSSRAY_SOURCE_DIR "/docs/run-json.md");
+    std::ostringstream content;
+    content << stream.rdbuf();
+    const std::string document = content.str();
+    for (const std::string& field : listRunJsonFields())
+        EXPECT_NE(document.find("`" + field + "`"), std::string::npos) << field << " is not in docs/run-json.md";
+}
