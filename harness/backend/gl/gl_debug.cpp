@@ -90,6 +90,9 @@ void GLAD_API_PTR GlDebugLog::receive(GLenum source, GLenum type, GLuint, GLenum
                                       const GLchar* text, const void* self)
 {
     if (severity == GL_DEBUG_SEVERITY_NOTIFICATION) return;
+    // Warnings of the compiler come only when neither this process nor Mesa's cache on disk knows the shader: a verdict
+    // would depend on what ran before. Its errors come back as the program's log.
+    if (source == GL_DEBUG_SOURCE_SHADER_COMPILER) return;
     std::string_view line = length < 0 ? std::string_view(text) : std::string_view(text, static_cast<size_t>(length));
     while (!line.empty() && (line.back() == '\n' || line.back() == '\0'))
         line.remove_suffix(1);

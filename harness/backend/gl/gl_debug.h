@@ -8,8 +8,8 @@
 
 namespace crossray {
 
-// From its making on, messages above the severity "notification" of the current context gather here. One a context; the
-// context outlives it and is current when it dies.
+// From its making on, messages of the current context gather here: those above the severity "notification", without the
+// shader compiler's. One a context; the context outlives it and is current when it dies.
 class GlDebugLog {
   public:
     // Throws EnvironmentError when a deliberate error of the API goes unreported.

@@ -133,6 +133,7 @@ class GlDevice final : public Device {
         checkIndices(job);
         context_->makeCurrent();
         forgetErrors();
+        programs_.trim(kProgramsKept); // here and not at the end, so that jobs which fail cannot pile programs up
         JobResult result;
         JobResources resources;
         Stopwatch stopwatch;
@@ -276,7 +277,6 @@ class GlDevice final : public Device {
         for (GlBuffer& buffer : resources.buffers)
             pool_.giveBack(std::move(buffer));
         glUseProgram(0); // a dropped program that is in use would live on
-        programs_.trim(kProgramsKept);
     }
 
     std::unique_ptr<GlContext> context_; // first in, last out

@@ -5,6 +5,7 @@
 #include "harness/backend/gl/lru_cache.h"
 #include "tests/unit/backend_gl/gl_test_device.h"
 
+#include <chrono>
 #include <fstream>
 #include <unistd.h>
 
@@ -111,6 +112,28 @@ TEST_F(GlLifetime, debugMessagesAreCaught)
     EXPECT_EQ(messages[0].find("OpenGL API error (high): GL_INVALID_ENUM"), 0u) << messages[0];
     EXPECT_EQ(messages[1], "OpenGL application portability (medium): a word");
     EXPECT_TRUE(log.take().empty());
+}
+
+// Without its empty indirect buffer, which only the preparation of a new program reads, a device makes one API error.
+TEST_F(GlLifetime, anErrorOfTheApiIsAMessageOfItsJob)
+{
+    const Job job = makeJob(makeGlsl("result[0] = 5.0;"), 1);
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
+    const JobResult result = device_->run(job);
+    ASSERT_EQ(result.messages.size(), 2u);
+    EXPECT_EQ(result.messages[0].find("OpenGL API error (high): GL_INVALID_OPERATION"), 0u) << result.messages[0];
+    EXPECT_EQ(result.messages[1], "OpenGL error 0x0502");
+    EXPECT_TRUE(device_->run(job).messages.empty());
+
+    const auto plain = makeGlDevice(testBackend(), {});
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
+    EXPECT_EQ(plain->run(job).messages, std::vector<std::string>{"OpenGL error 0x0502"});
+}
+
+TEST_F(GlLifetime, warningsOfTheCompilerAreNoMessages)
+{
+    const auto seed = std::chrono::steady_clock::now().time_since_epoch().count() % 1000000;
+    run(makeJob(makeGlsl(fmt::format("float x;\nresult[0] = x + {}.0;", seed)), 1)); // x is used uninitialised
 }
 
 TEST_F(GlLifetime, theFingerprintNamesTheDriver)
