@@ -68,6 +68,9 @@ TEST_F(GlLifetime, programsWithoutAKeyAreToldApartByTheirText)
 
 TEST_F(GlLifetime, memoryDoesNotGrowOverAThousandJobs)
 {
+#ifdef __SANITIZE_ADDRESS__
+    GTEST_SKIP() << "the address sanitizer keeps freed memory; it looks for leaks by itself";
+#endif
     Job job = makeJob(makeGlsl("result[gl_GlobalInvocationID.x] = texelFetch(image, ivec2(0), 0).x;",
                                "layout(binding = 1) uniform sampler2D image;"),
                       4096);
@@ -75,16 +78,16 @@ TEST_F(GlLifetime, memoryDoesNotGrowOverAThousandJobs)
     job.images.resize(1);
     size_t before = 0;
     for (int round = 0; round < 1200; ++round) {
-        if (round == 200) before = readResidentBytes();
-        // Sizes come and go, so that the pool has to let go too.
+        if (round == 600) before = readResidentBytes();
+        // No shape comes twice, and by now the pool is full: it has to let go as much as it takes.
         ImageDesc& image = job.images[0];
-        image.width = 64 + round % 37;
+        image.width = 64 + round;
         image.height = 64;
         image.texels.assign(static_cast<size_t>(image.width) * 64, 0.5);
-        job.buffers[0].scalarCount = static_cast<size_t>(4096 + 64 * (round % 29));
+        job.buffers[0].scalarCount = static_cast<size_t>(4096 + 64 * round);
         ASSERT_EQ(run(job).readbacks[0][0], 0.5);
     }
-    EXPECT_LT(readResidentBytes(), before + (size_t{8} << 20));
+    EXPECT_LT(readResidentBytes(), before + (size_t{16} << 20));
 }
 
 TEST_F(GlLifetime, devicesFollowEachOther)
