@@ -67,7 +67,7 @@ Recorder::Recorder(const Context& context) : context_(context)
 
 void Recorder::start(uint32_t setCount, uint32_t bindingCount)
 {
-    if (setCount > setCapacity_ || bindingCount > bindingCapacity_) {
+    if (setCapacity_ == 0 || setCount > setCapacity_ || bindingCount > bindingCapacity_) {
         setCapacity_ = std::bit_ceil(std::max({setCount, setCapacity_, 16u}));
         bindingCapacity_ = std::bit_ceil(std::max({bindingCount, bindingCapacity_, 64u}));
         descriptorPool_ = createDescriptorPool(context_.device(), setCapacity_, bindingCapacity_);
