@@ -149,10 +149,11 @@ std::unique_ptr<Device> openDevice(const std::string& backend, const DeviceOptio
 {
     if (isVulkan(backend)) return makeVulkanDevice(backend, options);
     if (isGl(backend)) return makeGlDevice(backend, options);
-    std::string known;
+    std::vector<std::string> known;
     for (const BackendInfo& info : listBackends())
-        known += info.name + ", ";
-    throw InputError(fmt::format("unknown backend \"{}\"; allowed are {}vulkan:NAME", backend, known));
+        known.push_back(info.name);
+    throw InputError(
+        fmt::format("unknown backend \"{}\"; allowed are {}, vulkan:NAME", backend, fmt::join(known, ", ")));
 }
 
 } // namespace crossray

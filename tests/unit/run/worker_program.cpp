@@ -1,5 +1,7 @@
-// A worker whose device misbehaves on demand, for the tests of the pool: a job's label says what to do.
+// A worker for the tests of the pool: with the real devices, and with one that misbehaves on demand, told by a job's
+// label.
 #include "harness/base/error.h"
+#include "harness/run/worker_pool.h"
 #include "harness/run/worker_server.h"
 
 #include <chrono>
@@ -123,13 +125,23 @@ int main(int argc, char** argv)
 {
     std::map<std::string, std::string> options;
     if (argc < 2 || std::strcmp(argv[1], "worker") != 0) return 2;
-    for (int i = 2; i + 1 < argc; i += 2)
-        options[argv[i]] = argv[i + 1];
+    bool validation = false;
+    for (int i = 2; i < argc; ++i) {
+        if (std::strcmp(argv[i], "--validation") == 0) {
+            validation = true;
+        } else if (i + 1 < argc) {
+            options[argv[i]] = argv[i + 1];
+            ++i;
+        }
+    }
     const std::string backend = options["--backend"];
     const int replyFd = std::atoi(options["--reply-fd"].c_str());
     if (backend == "early-death") {
         std::fprintf(stderr, "this driver cannot even start\n");
         return 6;
+    }
+    if (!backend.starts_with("test") && backend != "refusing") {
+        return runWorker(backend, std::atoi(options["--request-fd"].c_str()), replyFd, validation);
     }
     return serveJobs(std::atoi(options["--request-fd"].c_str()), replyFd, [&]() -> std::unique_ptr<Device> {
         if (backend == "refusing") throw EnvironmentError("there is no such device");

@@ -1,0 +1,121 @@
+// The drivers of this machine, each in its worker.
+#include "harness/compile/compile.h"
+#include "harness/run/worker_pool.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <unistd.h>
+
+using namespace crossray;
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr const char* kSource = R"(#version 450
+layout(local_size_x = 4) in;
+layout(constant_id = 0) const float kScale = 1.0;
+layout(binding = 0, std140) uniform Params { vec4 offset; };
+layout(binding = 1) uniform sampler2D image;
+layout(binding = 2, std430) buffer Result { vec4 values[]; };
+void main()
+{
+    int x = int(gl_GlobalInvocationID.x);
+    values[x] = texelFetch(image, ivec2(x, 0), 0) * kScale + offset;
+}
+)";
+
+class Folder {
+  public:
+    Folder()
+    {
+        std::string name = (std::filesystem::temp_directory_path() / "crossray_worker_XXXXXX").string();
+        path_ = ::mkdtemp(name.data());
+    }
+    ~Folder()
+    {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+    const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+};
+
+Job makeScaleJob(const std::filesystem::path& folder, double scale)
+{
+    std::ofstream(folder / "scale.comp") << kSource;
+    CompileOptions options;
+    options.includeRoot = folder;
+    options.specialization = {{"kScale", scale}};
+    const CompiledShader shader = ShaderCompiler(folder / "cache").compile("scale.comp", options);
+    Job job;
+    job.label = "scale";
+    job.programs = {{"scale.comp", options.specialization, shader.spirv, shader.glsl, shader.key}};
+    job.images = {{8, 1, 4, 1, ImageFilter::kNearest, std::vector<double>(32)}};
+    for (size_t i = 0; i < 32; ++i)
+        job.images[0].texels[i] = static_cast<double>(i);
+    const float offset[4] = {0.5f, 0, 0, -1};
+    const auto bytes = std::as_bytes(std::span(offset));
+    job.buffers = {{BufferKind::kUniform, {bytes.begin(), bytes.end()}, 0}, {BufferKind::kStorage, {}, 32}};
+    job.dispatches = {
+        {0, {{0, Binding::What::kBuffer, 0}, {1, Binding::What::kImage, 0}, {2, Binding::What::kBuffer, 1}}, 2, 1, 1}};
+    job.readbacks = {1};
+    return job;
+}
+
+class WorkerDevices : public testing::TestWithParam<std::string> {
+  protected:
+    void SetUp() override
+    {
+        for (const BackendInfo& info : listBackends()) {
+            if (info.name == GetParam() && !info.found) GTEST_SKIP() << "not installed: " << info.missing;
+        }
+        options.executable = CROSSRAY_BINARY_DIR "/worker_program";
+        options.mesaCacheFolder = folder.path() / "mesa";
+    }
+    Folder folder;
+    WorkerOptions options;
+};
+
+} // namespace
+
+TEST_P(WorkerDevices, computeWhatTheyAreAsked)
+{
+    WorkerPool pool(options);
+    EXPECT_EQ(pool.fingerprint(GetParam()).backend, GetParam());
+    const JobReport empty = pool.run(GetParam(), 0, Job{}, 30s);
+    EXPECT_EQ(empty.outcome, JobOutcome::kDone) << empty.text;
+    for (const double scale : {2.0, 3.0, 2.0}) {
+        const JobReport report = pool.run(GetParam(), 0, makeScaleJob(folder.path(), scale), 30s);
+        ASSERT_EQ(report.outcome, JobOutcome::kDone) << report.text;
+        ASSERT_EQ(report.result.readbacks.size(), 1u);
+        for (size_t i = 0; i < 32; ++i) {
+            const double offset = i % 4 == 0 ? 0.5 : i % 4 == 3 ? -1 : 0;
+            EXPECT_EQ(report.result.readbacks[0].at(i), static_cast<double>(i) * scale + offset);
+        }
+        EXPECT_TRUE(report.result.messages.empty());
+    }
+    EXPECT_TRUE(pool.run(GetParam(), 0, makeScaleJob(folder.path(), 3.0), 30s).result.programsWereWarm);
+}
+
+TEST_P(WorkerDevices, aRefusedProgramIsAnAnswer)
+{
+    WorkerPool pool(options);
+    Job job = makeScaleJob(folder.path(), 1.0);
+    job.programs[0].spirv.resize(job.programs[0].spirv.size() / 2);
+    job.programs[0].glsl = "#version 450\nvoid main() { missing(); }\n";
+    job.programs[0].key = "broken";
+    const JobReport report = pool.run(GetParam(), 0, job, 30s);
+    EXPECT_EQ(report.outcome, JobOutcome::kShaderError) << report.text;
+    EXPECT_FALSE(report.text.empty());
+    EXPECT_EQ(pool.run(GetParam(), 0, makeScaleJob(folder.path(), 1.0), 30s).outcome, JobOutcome::kDone);
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, WorkerDevices,
+                         testing::Values("lavapipe", "swiftshader", "osmesa", "softpipe", "egl"),
+                         [](const auto& each) { return each.param; });
