@@ -1,0 +1,2 @@
+#define CROSSRAY_GLSL_PRECISION 64
+#include "harness/backend/cpu/kernels.inl"

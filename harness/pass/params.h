@@ -1,0 +1,42 @@
+// The parameter blocks of the passes in both precisions: the same struct text as the shaders', so a layout cannot
+// drift.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include <cstddef>
+#include <cstring>
+#include <vector>
+
+namespace crossray {
+
+namespace layout32 {
+using vec4 = glm::vec4;
+using ivec4 = glm::ivec4;
+using mat4 = glm::mat4;
+#include "shaders/crossray/shared/pass_params.glsl"
+static_assert(sizeof(PyramidParams) == 3 * 16, "std140 pads nothing");
+static_assert(sizeof(PassParams) == 4 * 64 + (7 + CROSSRAY_MAX_PYRAMID_LEVELS) * 16, "std140 pads nothing");
+} // namespace layout32
+
+#undef CROSSRAY_SHARED_PASS_PARAMS_GLSL
+#undef CROSSRAY_MAX_PYRAMID_LEVELS
+
+namespace layout64 {
+using vec4 = glm::dvec4;
+using ivec4 = glm::ivec4;
+using mat4 = glm::dmat4;
+#include "shaders/crossray/shared/pass_params.glsl"
+} // namespace layout64
+
+inline constexpr int kMaxPyramidLevels = CROSSRAY_MAX_PYRAMID_LEVELS;
+
+template <class Params>
+std::vector<std::byte> bytesOf(const Params& params)
+{
+    std::vector<std::byte> bytes(sizeof(Params));
+    std::memcpy(bytes.data(), &params, sizeof(Params));
+    return bytes;
+}
+
+} // namespace crossray

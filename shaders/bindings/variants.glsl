@@ -1,0 +1,13 @@
+// The specialization constants of the harness's passes: CROSSRAY_VARIANT(id, name, default). Included once for each meaning that
+// the macro is given (a constant in GLSL; a variable and a table row in C++), so it has no guard.
+#ifndef CROSSRAY_VARIANT
+#define CROSSRAY_VARIANT(id, name, value) layout(constant_id = id) const int name = value;
+#endif
+
+CROSSRAY_VARIANT(0, kEffect, 0)           // 0 reflection, 1 refraction
+CROSSRAY_VARIANT(1, kRefractionModel, 0)  // 0 none, 1 sphere, 2 box, 3 thin
+CROSSRAY_VARIANT(2, kProjectionModel, 0)  // 0 none, 1 infinite, 2 box, 3 sphere, 4 HiZ
+CROSSRAY_VARIANT(3, kOutputMask, 65535)   // bit i: output i is stored; crossray/shared/outputs.glsl
+CROSSRAY_VARIANT(4, kOrthographic, 0)     // 1: View.orthographic
+CROSSRAY_VARIANT(5, kReversedDepth, 1)    // 1: View.reversedDepth
+CROSSRAY_VARIANT(6, kScreenWeightForm, 1) // 0 linear, 1 smooth as of 2018, 2 smooth as of today

@@ -1,0 +1,30 @@
+// Parameters of the harness's passes, as C++ and GLSL both see them. Only vec4, ivec4 and mat4 members, so that std140 and the
+// C++ struct have the same layout without padding.
+#ifndef CROSSRAY_SHARED_PASS_PARAMS_GLSL
+#define CROSSRAY_SHARED_PASS_PARAMS_GLSL
+
+#define CROSSRAY_MAX_PYRAMID_LEVELS 16
+
+struct PassParams {
+    mat4 viewFromWorld;
+    mat4 worldFromView;
+    mat4 clipFromView;
+    mat4 worldFromProxy;    // rotation only
+    vec4 imageSizeAndSlope; // xy: pixels; zw: View.slope
+    vec4 depthTerms;        // View.depthA, View.depthB, near and far distance in metres
+    vec4 material;          // index of refraction, thickness in metres, perceptual roughness, unused
+    vec4 proxyCenterWS;     // xyz: metres
+    vec4 proxyExtents;      // xyz: half extents of the box, w: radius of the sphere; metres
+    vec4 tracing;           // depth bias in metres, screen weight distance in UV, unused, unused
+    ivec4 hizLimits;        // min level, max level, max iterations, levels in the pyramid
+    ivec4 pyramidLevels[CROSSRAY_MAX_PYRAMID_LEVELS]; // first cell's index, width, height, unused
+};
+
+// Parameters of one reduction of the depth pyramid.
+struct PyramidParams {
+    vec4 depthTerms;   // as in PassParams
+    ivec4 sourceLevel; // first cell's index, width, height, level number; unused for target level 0
+    ivec4 targetLevel; // first cell's index, width, height, level number; level 0 reads the depth buffer
+};
+
+#endif
