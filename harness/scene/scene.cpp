@@ -4,86 +4,86 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 
 namespace crossray {
 
 namespace {
 
-// One crossing of a ray and a primitive, before position and normal are worked out.
+// One crossing of a ray and a primitive, before position and normal are worked out. Plain numbers and inlined visitors:
+// this is the inner loop of every image.
 struct Crossing {
     double distance = 0;
-    int axis = 2;      // box: the face's axis
-    double sign = 1.0; // box: which of the axis' two faces
-};
-
-struct Crossings {
-    std::array<Crossing, 2> at;
-    int count = 0;
+    int face = 0; // box: 2 * axis, + 1 for the face on the axis' positive side
 };
 
 // The half-chord comes from the ray's distance to the centre: no difference of large squares, so far spheres stay
 // exact.
-Crossings crossSphere(const Primitive& sphere, const Ray& ray)
+template <typename Visit>
+void crossSphere(const Primitive& sphere, const Ray& ray, const Visit& visit)
 {
     const glm::dvec3 fromCenter = ray.originWS - sphere.center;
     const double along = glm::dot(fromCenter, ray.dirWS);
     const glm::dvec3 nearest = fromCenter - along * ray.dirWS;
     const double squared = sphere.radius * sphere.radius - glm::dot(nearest, nearest);
-    if (!(squared >= 0.0)) return {};
+    if (!(squared >= 0.0)) return;
     const double halfChord = std::sqrt(squared);
-    return {{{{-along - halfChord, 2, 1.0}, {-along + halfChord, 2, 1.0}}}, 2};
+    visit(Crossing{-along - halfChord, 0});
+    visit(Crossing{-along + halfChord, 0});
 }
 
-Crossings crossPlane(const Primitive& plane, const Ray& ray)
+template <typename Visit>
+void crossPlane(const Primitive& plane, const Ray& ray, const Visit& visit)
 {
     const glm::dvec3 fromCenter = ray.originWS - plane.center;
     const double height = glm::dot(plane.worldFromLocal[2], fromCenter);
     const double descent = glm::dot(plane.worldFromLocal[2], ray.dirWS);
-    if (descent == 0.0) return {};
+    if (descent == 0.0) return;
     const double distance = -height / descent;
     const glm::dvec3 hit = fromCenter + distance * ray.dirWS;
-    if (!(std::abs(glm::dot(plane.worldFromLocal[0], hit)) <= plane.halfExtents.x) ||
-        !(std::abs(glm::dot(plane.worldFromLocal[1], hit)) <= plane.halfExtents.y))
-        return {};
-    return {{{{distance, 2, 1.0}, {}}}, 1};
+    if (std::abs(glm::dot(plane.worldFromLocal[0], hit)) <= plane.halfExtents.x &&
+        std::abs(glm::dot(plane.worldFromLocal[1], hit)) <= plane.halfExtents.y)
+        visit(Crossing{distance, 0});
 }
 
-Crossings crossBox(const Primitive& box, const Ray& ray)
+template <typename Visit>
+void crossBox(const Primitive& box, const Ray& ray, const Visit& visit)
 {
     const glm::dvec3 fromCenter = ray.originWS - box.center;
-    Crossing entry{-kNoLimit, 0, 1.0};
-    Crossing exit{kNoLimit, 0, 1.0};
+    Crossing entry{-kNoLimit, 0};
+    Crossing exit{kNoLimit, 0};
     for (int axis = 0; axis < 3; ++axis) {
         const double origin = glm::dot(box.worldFromLocal[axis], fromCenter);
         const double dir = glm::dot(box.worldFromLocal[axis], ray.dirWS);
         const double half = box.halfExtents[axis];
         if (dir == 0.0) { // parallel to the slab: inside it for ever, or never
-            if (std::abs(origin) > half) return {};
+            if (std::abs(origin) > half) return;
             continue;
         }
-        const double sign = dir > 0.0 ? 1.0 : -1.0;
-        const double enters = (-sign * half - origin) / dir;
-        const double leaves = (sign * half - origin) / dir;
-        if (enters > entry.distance) entry = {enters, axis, -sign};
-        if (leaves < exit.distance) exit = {leaves, axis, sign};
+        const double towards = std::copysign(half, dir);
+        const double enters = (-towards - origin) / dir;
+        const double leaves = (towards - origin) / dir;
+        const int ahead = dir > 0.0 ? 1 : 0;
+        if (enters > entry.distance) entry = {enters, 2 * axis + 1 - ahead};
+        if (leaves < exit.distance) exit = {leaves, 2 * axis + ahead};
+        if (entry.distance > exit.distance) return;
     }
-    if (!(entry.distance <= exit.distance)) return {};
-    return {{{entry, exit}}, 2};
+    visit(entry);
+    visit(exit);
 }
 
-Crossings crossPrimitive(const Primitive& primitive, const Ray& ray)
+// Calls visit(Crossing) for each crossing in order of distance.
+template <typename Visit>
+void crossPrimitive(const Primitive& primitive, const Ray& ray, const Visit& visit)
 {
     switch (primitive.shape) {
     case PrimitiveShape::kPlane:
-        return crossPlane(primitive, ray);
+        return crossPlane(primitive, ray, visit);
     case PrimitiveShape::kSphere:
-        return crossSphere(primitive, ray);
+        return crossSphere(primitive, ray, visit);
     case PrimitiveShape::kBox:
-        break;
+        return crossBox(primitive, ray, visit);
     }
-    return crossBox(primitive, ray);
 }
 
 SurfaceHit makeHit(const Primitive& primitive, int index, const Ray& ray, const Crossing& crossing)
@@ -100,7 +100,7 @@ SurfaceHit makeHit(const Primitive& primitive, int index, const Ray& ray, const 
         hit.normalWS = glm::normalize(hit.positionWS - primitive.center);
         break;
     case PrimitiveShape::kBox:
-        hit.normalWS = crossing.sign * primitive.worldFromLocal[crossing.axis];
+        hit.normalWS = (crossing.face % 2 == 1 ? 1.0 : -1.0) * primitive.worldFromLocal[crossing.face / 2];
         break;
     }
     hit.backFace = glm::dot(hit.normalWS, ray.dirWS) > 0.0;
@@ -183,19 +183,17 @@ void validatePrimitive(const Primitive& primitive, size_t number)
 std::optional<SurfaceHit> castRay(const Scene& scene, const Ray& ray, double minDistance, double maxDistance,
                                   int ignorePrimitive)
 {
-    Crossing nearest{maxDistance, 2, 1.0};
+    Crossing nearest{maxDistance, 0};
     int found = -1;
     const int count = static_cast<int>(scene.primitives.size());
     for (int i = 0; i < count; ++i) {
         if (i == ignorePrimitive) continue;
-        const Crossings crossings = crossPrimitive(scene.primitives[static_cast<size_t>(i)], ray);
-        for (int k = 0; k < crossings.count; ++k) {
-            const Crossing& crossing = crossings.at[static_cast<size_t>(k)];
+        crossPrimitive(scene.primitives[static_cast<size_t>(i)], ray, [&](const Crossing& crossing) {
             if (crossing.distance > minDistance && crossing.distance < nearest.distance) {
                 nearest = crossing;
                 found = i;
             }
-        }
+        });
     }
     if (found < 0) return std::nullopt;
     return makeHit(scene.primitives[static_cast<size_t>(found)], found, ray, nearest);
@@ -203,15 +201,16 @@ std::optional<SurfaceHit> castRay(const Scene& scene, const Ray& ray, double min
 
 std::vector<SurfaceHit> intersectPrimitive(const Primitive& primitive, const Ray& ray)
 {
-    const Crossings crossings = crossPrimitive(primitive, ray);
     std::vector<SurfaceHit> hits;
-    for (int k = 0; k < crossings.count; ++k) {
-        const Crossing& crossing = crossings.at[static_cast<size_t>(k)];
-        if (!std::isfinite(crossing.distance)) continue; // an endless box
-        hits.push_back(makeHit(primitive, 0, ray, crossing));
-        // A ray that runs along a face can round either way; entry and exit are told by their order.
-        if (primitive.shape != PrimitiveShape::kPlane) hits.back().backFace = k == 1;
-    }
+    bool leaves = false;
+    crossPrimitive(primitive, ray, [&](const Crossing& crossing) {
+        if (std::isfinite(crossing.distance)) { // an endless box is entered nowhere
+            hits.push_back(makeHit(primitive, 0, ray, crossing));
+            // A ray that runs along a face can round either way; entry and exit are told by their order.
+            if (primitive.shape != PrimitiveShape::kPlane) hits.back().backFace = leaves;
+        }
+        leaves = true;
+    });
     return hits;
 }
 

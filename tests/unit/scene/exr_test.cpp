@@ -93,7 +93,7 @@ void expectSame(const Plane& actual, const Plane& expected)
 TEST_F(Exr, RoundTripOfAllShapes)
 {
     std::vector<Plane> planes = {makeNoise("Zed", 7, 5, 1), makeNoise("Color", 7, 5, 3),
-                                 makeNoise("PositionNDC", 7, 5, 2), makeNoise("All", 16, 3, 4),
+                                 makeNoise("PositionNDC", 7, 5, 2), makeNoise("All", 160, 120, 4),
                                  makeNoise("Pixel", 1, 1, 1)};
     planes[0].values[3] = std::numeric_limits<double>::quiet_NaN();
     planes[0].values[4] = -std::numeric_limits<double>::infinity();
