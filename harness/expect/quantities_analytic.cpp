@@ -112,7 +112,7 @@ PixelAnswer answerRadiance(const QuantityInput& input, size_t pixel)
     }
     answer.radiance = computeRadiance(testCase.scene, *hit);
     const ScreenPoint screen = input.frame.project(hit->positionWS);
-    if (screen.onScreen) {
+    if (screen.inFront) {
         answer.hitWeight = screenWeightAt(screen.positionSS / size, testCase.projection.screenWeightDistance,
                                           testCase.projection.screenWeightForm);
     }

@@ -209,8 +209,8 @@ TEST(Refraction, aNormalThatFacesAwayIsTiltedToGrazing)
         const SurfacePoint seen = seenAt(degrees);
         const double turn = (degrees - grazing) * kDegree; // towards the eye, which is at -x
         const SurfacePoint turned{{0, 0, 0}, {-std::sin(turn), 0, std::cos(turn)}, seen.toEyeWS};
-        expectNear(tilted.dirWS, refractThroughSphere(turned, 1.5, 1.0).dirWS, 1e-11);
-        expectNear(tilted.originWS, refractThroughSphere(turned, 1.5, 1.0).originWS, 1e-11);
+        expectNear(tilted.dirWS, sphereStepByStep(turned, 1.5, 1.0).dirWS, 1e-8);
+        expectNear(tilted.originWS, sphereStepByStep(turned, 1.5, 1.0).originWS, 1e-11);
     }
     const EffectRay opposite = refractThroughBox({{1, 2, 3}, {0, 0, 1}, {0, 0, -1}}, 1.5, 1.0);
     EXPECT_EQ(opposite.status, HitReason::kDegenerateRay);
@@ -228,6 +228,16 @@ TEST(Refraction, anIndexWithoutMeaningIsNoRay)
     }
     expectNear(refractThroughBox(seenAt(20.0), 1e6, 1.0).originWS, refractThroughBox(seenAt(20.0), 1e3, 1.0).originWS,
                0.0);
+}
+
+TEST(Refraction, indexAndThicknessHaveBounds)
+{
+    EXPECT_EQ(refractThroughBox(seenAt(0.0), 1.5, 1e9).pathLength, 65504.0);
+    EXPECT_EQ(refractThroughSphere(seenAt(0.0), 1.5, kInf).pathLength, 65504.0);
+    // 0.03 degrees enter an index of 0.001, the smallest: sin b = 0.5236.
+    const double sine = std::sin(0.03 * kDegree) / 0.001;
+    EXPECT_NEAR(refractThroughBox(seenAt(0.03), 1e-6, 1.0).pathLength, 1.0 / std::sqrt(1.0 - sine * sine), 1e-12);
+    EXPECT_EQ(refractThroughBox(seenAt(0.06), 1e-6, 1.0).status, HitReason::kNoRefractedRay);
 }
 
 RC_GTEST_PROP(Refraction, isFiniteAndUnitForWhateverComes, ())

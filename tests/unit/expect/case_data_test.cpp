@@ -227,4 +227,8 @@ TEST(Recorded, object0TracesEverySurface)
     const CaseData data(recordedCase("mirror_room", TraceEffect::kReflection, 0));
     const CaseData floor(recordedCase("mirror_room", TraceEffect::kReflection, 1));
     EXPECT_GT(countOf(data.tracedPixels()), countOf(floor.tracedPixels()));
+    const Plane& indices = data.gbuffer().plane(GBufferChannel::kObjectIndex);
+    EXPECT_EQ(countOf(data.tracedPixels()),
+              indices.pixelCount() -
+                  static_cast<size_t>(std::count(indices.values.begin(), indices.values.end(), 0.0)));
 }

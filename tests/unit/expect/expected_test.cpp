@@ -132,6 +132,59 @@ TEST(Expected, insideARoomTheBoxProxyOfItsSizeIsTheTruth)
     }
     EXPECT_GT(hits, 5);
     EXPECT_GT(misses, 5);
+    // The truth's own planes hold the depth and place also of what is behind the camera or off the screen.
+    const auto trueDepth = makeExpected(data, truth("HitDepth", "hit_depth"));
+    const auto truePosition = makeExpected(data, truth("HitPositionSS", "hit_position_ss"));
+    for (size_t pixel = 0; pixel < trueDepth->values.size(); ++pixel) {
+        EXPECT_EQ(trueDepth->values[pixel], data.truth().pixels[pixel].hitLinearDepth);
+        EXPECT_EQ(truePosition->values[2 * pixel + 1], data.truth().pixels[pixel].hitPositionSS.y);
+    }
+}
+
+TEST(Expected, colourIsTheRadianceTimesTheScreenWeight)
+{
+    Case testCase = glassSphere();
+    testCase.projection.screenWeightDistance = 0.5;
+    testCase.projection.screenWeightForm = ScreenWeightForm::kLinear;
+    const CaseData data(testCase);
+    for (const bool closed : {false, true}) {
+        const auto source = [&](const char* output) {
+            return closed ? analytic(output, "surface_radiance") : truth(output, "hit_radiance");
+        };
+        const auto color = makeExpected(data, source("Color"));
+        const auto sampled = makeExpected(data, source("SampledColor"));
+        int compared = 0;
+        for (size_t pixel = 0; pixel < data.tracedPixels().size(); ++pixel) {
+            const TruthPixel& known = data.truth().pixels[pixel];
+            if (known.screen != ScreenKnowledge::kVisible) continue;
+            const glm::dvec2 uv = known.hitPositionSS / glm::dvec2(24, 16);
+            const double weight = 4.0 * std::min(uv.x, 1.0 - uv.x) * std::min(uv.y, 1.0 - uv.y);
+            EXPECT_EQ(sampled->values[pixel * 3], known.radiance.x);
+            EXPECT_NEAR(color->values[pixel * 3], known.radiance.x * weight, 1e-12);
+            ++compared;
+        }
+        EXPECT_GT(compared, 5);
+    }
+}
+
+TEST(Expected, theBackOfABoxIsUnknownAndWeighsNothing)
+{
+    // A mirror wall behind a box that stands aside: what it shows on screen is the box's back, which the screen does
+    // not know.
+    Case testCase =
+        makeCase({wall(-8.0, "mirror"), box({2.5, 0, -4}, {1, 2, 0.5}, "diffuse")}, TraceEffect::kReflection);
+    testCase.projection.model = ProjectionModel::kHiz;
+    const CaseData data(testCase);
+    const auto hit = makeExpected(data, truth("HitSuccess", "hit"));
+    const auto weight = makeExpected(data, analytic("HitWeight", "screen_weight"));
+    int hidden = 0;
+    for (size_t pixel = 0; pixel < hit->values.size(); ++pixel) {
+        if (data.truth().pixels[pixel].screen != ScreenKnowledge::kHidden) continue;
+        EXPECT_EQ(hit->values[pixel], 3.0);
+        EXPECT_EQ(weight->values[pixel], 0.0);
+        ++hidden;
+    }
+    EXPECT_GT(hidden, 3);
 }
 
 TEST(Expected, aMarchsWeightIsThatOfTheVisibleTruth)
