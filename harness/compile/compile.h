@@ -67,6 +67,10 @@ class ShaderCompiler {
     std::unique_ptr<Impl> impl_;
 };
 
+// Text of a debugInfo compile with its #line directives as empty lines: drivers refuse #line with a file's name, and
+// the line numbers of their messages are then those that mapDriverMessage reads.
+std::string blankLineDirectives(const std::string& generatedGlsl);
+
 // Maps a driver's message about generated GLSL ("0:123(45): error: ...") back to the line of the source, by the #line
 // directives in the generated text, which are there when it was compiled with debugInfo. Names of files below
 // `includeRoot` become paths. Returns the message unchanged when there is nothing to map.

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <regex>
+#include <sstream>
 
 namespace crossray {
 
@@ -60,6 +61,18 @@ std::string mapOneMessage(const std::string& message, const std::string& glsl, c
 }
 
 } // namespace
+
+std::string blankLineDirectives(const std::string& generatedGlsl)
+{
+    std::string result;
+    std::istringstream lines(generatedGlsl);
+    for (std::string line; std::getline(lines, line);) {
+        const bool directive =
+            line.starts_with("#line ") || line.starts_with("#extension GL_GOOGLE_cpp_style_line_directive");
+        result += directive ? "\n" : line + "\n";
+    }
+    return result;
+}
 
 std::string mapDriverMessage(const std::string& message, const std::string& generatedGlsl,
                              const std::filesystem::path& includeRoot)

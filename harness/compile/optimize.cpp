@@ -91,7 +91,7 @@ std::vector<uint32_t> specialize(const std::vector<uint32_t>& spirv, const std::
     optimizer.RegisterPass(spvtools::CreateBlockMergePass());
     optimizer.RegisterPass(spvtools::CreateEliminateDeadConstantPass());
     optimizer.RegisterPass(spvtools::CreateCompactIdsPass());
-    return runPasses(optimizer, frozen);
+    return allowContraction(runPasses(optimizer, forbidContraction(frozen)));
 }
 
 std::vector<uint32_t> stripDebugInfo(const std::vector<uint32_t>& spirv)

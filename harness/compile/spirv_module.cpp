@@ -47,6 +47,29 @@ std::string readText(std::span<const uint32_t> words)
     return text;
 }
 
+bool isFloatArithmetic(spv::Op op)
+{
+    switch (op) {
+    case spv::OpFAdd:
+    case spv::OpFSub:
+    case spv::OpFMul:
+    case spv::OpFDiv:
+    case spv::OpFRem:
+    case spv::OpFMod:
+    case spv::OpFNegate:
+    case spv::OpVectorTimesScalar:
+    case spv::OpMatrixTimesScalar:
+    case spv::OpVectorTimesMatrix:
+    case spv::OpMatrixTimesVector:
+    case spv::OpMatrixTimesMatrix:
+    case spv::OpOuterProduct:
+    case spv::OpDot:
+        return true;
+    default:
+        return false;
+    }
+}
+
 double decodeConstant(SpecializationType type, std::span<const uint32_t> words)
 {
     switch (type) {
@@ -147,6 +170,37 @@ void setLocalSize(std::vector<uint32_t>& spirv, const std::array<uint32_t, 3>& s
     });
     for (const size_t place : places)
         std::copy(size.begin(), size.end(), spirv.begin() + static_cast<std::ptrdiff_t>(place));
+}
+
+std::vector<uint32_t> forbidContraction(const std::vector<uint32_t>& spirv)
+{
+    std::vector<uint32_t> ids;
+    size_t annotations = 0; // where the first decoration stands, or would stand: before the first type
+    forEachInstruction(spirv, [&](spv::Op op, std::span<const uint32_t> operands) {
+        const auto place = static_cast<size_t>(operands.data() - spirv.data()) - 1;
+        if (annotations == 0 && (op == spv::OpDecorate || op == spv::OpMemberDecorate || op == spv::OpTypeVoid)) {
+            annotations = place;
+        }
+        if (isFloatArithmetic(op) && operands.size() >= 2) ids.push_back(operands[1]);
+    });
+    if (annotations == 0) return spirv;
+    std::vector<uint32_t> result(spirv.begin(), spirv.begin() + static_cast<std::ptrdiff_t>(annotations));
+    for (const uint32_t id : ids) {
+        result.insert(result.end(), {(3u << spv::WordCountShift) | spv::OpDecorate, id, spv::DecorationNoContraction});
+    }
+    result.insert(result.end(), spirv.begin() + static_cast<std::ptrdiff_t>(annotations), spirv.end());
+    return result;
+}
+
+std::vector<uint32_t> allowContraction(const std::vector<uint32_t>& spirv)
+{
+    std::vector<uint32_t> result(spirv.begin(),
+                                 spirv.begin() + static_cast<std::ptrdiff_t>(std::min(kHeaderWords, spirv.size())));
+    forEachInstruction(spirv, [&](spv::Op op, std::span<const uint32_t> operands) {
+        if (op == spv::OpDecorate && operands.size() == 2 && operands[1] == spv::DecorationNoContraction) return;
+        result.insert(result.end(), operands.data() - 1, operands.data() + operands.size());
+    });
+    return result;
 }
 
 size_t countSpirvInstructions(const std::vector<uint32_t>& spirv)

@@ -24,6 +24,11 @@ std::vector<SpecializationConstant> findSpecializationConstants(const std::vecto
 std::array<uint32_t, 3> findLocalSize(const std::vector<uint32_t>& spirv);
 // Writes the size into the execution mode: the optimiser takes the constant that overrides it for dead.
 void setLocalSize(std::vector<uint32_t>& spirv, const std::array<uint32_t, 3>& size);
+// Forbids the optimiser to fuse or to regroup any float arithmetic: a fused multiply-add or (x * 2) * 3 as x * 6 rounds
+// otherwise than the source says, and drivers differ in whether they fuse.
+std::vector<uint32_t> forbidContraction(const std::vector<uint32_t>& spirv);
+// Takes all NoContraction decorations away again, those of the source's `precise` too.
+std::vector<uint32_t> allowContraction(const std::vector<uint32_t>& spirv);
 size_t countSpirvInstructions(const std::vector<uint32_t>& spirv);
 
 // The words of a constant of the given type. Throws InputError that says what is allowed when the value does not fit.

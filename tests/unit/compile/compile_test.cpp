@@ -61,6 +61,22 @@ TEST(Compile, variantsDropWhatTheyDoNotUse)
     EXPECT_EQ(compiler.compile("a.comp", options).glsl.find("sourceImage"), std::string::npos);
 }
 
+TEST(Compile, theOptimiserRoundsAsTheSourceSays)
+{
+    const ShaderFolder folder;
+    folder.write("a.comp",
+                 "#version 450\nlayout(local_size_x = 1) in;\nlayout(binding = 0) buffer B { float a[]; };\n"
+                 "float scaled(float x) { return x * 3.0; }\n"
+                 "void main() { a[0] = a[1] * a[2] + a[3]; a[4] = scaled(a[5] * 7.0); a[6] = (a[7] + 0.1) + 0.2; }\n");
+    ShaderCompiler compiler({});
+    const CompiledShader shader = compiler.compile("a.comp", folder.options());
+    EXPECT_EQ(shader.glsl.find("fma"), std::string::npos) << shader.glsl;
+    EXPECT_EQ(shader.glsl.find("21.0"), std::string::npos) << shader.glsl;
+    EXPECT_EQ(shader.glsl.find("0.3"), std::string::npos) << shader.glsl;
+    EXPECT_EQ(shader.glsl.find("precise"), std::string::npos) << shader.glsl; // for the optimiser alone
+    EXPECT_EQ(compiler.disassemble(shader.spirv).find("NoContraction"), std::string::npos);
+}
+
 TEST(Compile, specializationValuesReachTheCode)
 {
     const ShaderFolder folder;

@@ -187,6 +187,13 @@ TEST(DriverMessages, areMappedThroughLineDirectives)
     EXPECT_EQ(mapDriverMessage("0:99999999999999(1): error: far", glsl), "0:99999999999999(1): error: far");
 }
 
+TEST(DriverMessages, directivesAreBlankedLineByLine)
+{
+    EXPECT_EQ(blankLineDirectives(
+                  "#version 450\n#extension GL_GOOGLE_cpp_style_line_directive : require\n#line 1 \"a\"\nx\n"),
+              "#version 450\n\n\nx\n");
+}
+
 TEST(DriverMessages, findTheLineOfARealShader)
 {
     const ShaderFolder folder;
