@@ -186,10 +186,10 @@ void addTools(CLI::App& app, CommandLine& line)
     doctor.callback([&line] { line.verb = [&line] { return diagnose(line.global); }; });
 
     CLI::App& worker = *app.add_subcommand("worker", "Serve one backend; started by run")->group("");
-    worker.add_option("backend", line.workerBackend)->required();
+    worker.add_option("--backend", line.workerBackend)->required();
     worker.add_option("--request-fd", line.requestFd)->required();
     worker.add_option("--reply-fd", line.replyFd)->required();
-    worker.add_flag("--validate", line.workerValidation);
+    worker.add_flag("--validation", line.workerValidation);
     worker.callback([&line] {
         line.verb = [&line] {
             return runWorker(line.workerBackend, line.requestFd, line.replyFd, line.workerValidation);

@@ -1,5 +1,7 @@
 #include "harness/run/steps.h"
 
+#include "harness/run/worker_explain.h"
+
 #include <csignal>
 
 #include <sys/types.h>
@@ -38,8 +40,9 @@ ExecuteSteps makeSteps(WorkerPool& pool, ShaderCompiler& compiler, const std::fi
     steps.prepare = [&compiler, shaderRoot](const Case& testCase, bool needsFloat, bool needsDouble) {
         return prepareCase(testCase, needsFloat, needsDouble, compiler, shaderRoot);
     };
-    steps.run = [&pool](const std::string& backend, int core, const Job& job, std::chrono::duration<double> timeout) {
-        return pool.run(backend, core, job, timeout);
+    steps.run = [&pool, &compiler, shaderRoot](const std::string& backend, int core, const Job& job,
+                                               std::chrono::duration<double> timeout) {
+        return runExplained(pool, compiler, shaderRoot, backend, core, job, timeout);
     };
     steps.open = [&pool](const std::string& backend, int core) { return pool.fingerprint(backend, core); };
     steps.readPlanes = [](const Case& testCase, const JobResult& result) { return readPlanes(testCase, result); };

@@ -1,5 +1,6 @@
 #include "harness/run/worker_backends.h"
 
+#include "harness/backend/cpu/cpu_device.h"
 #include "harness/backend/gl/gl_device.h"
 #include "harness/backend/vulkan/vulkan_device.h"
 #include "harness/base/error.h"
@@ -120,12 +121,9 @@ std::map<std::string, std::string> workerEnvironment(const std::string& backend,
         {"MESA_GL_VERSION_OVERRIDE", ""},
         {"MESA_GLSL_VERSION_OVERRIDE", ""},
     };
-    if (options.mesaCacheFolder.empty()) {
-        variables["MESA_SHADER_CACHE_DISABLE"] = "true";
-    } else {
-        variables["MESA_SHADER_CACHE_DISABLE"] = "";
-        variables["MESA_SHADER_CACHE_DIR"] = fs::absolute(options.mesaCacheFolder).string();
-    }
+    const bool cached = !options.mesaCacheFolder.empty();
+    variables.emplace("MESA_SHADER_CACHE_DISABLE", cached ? "" : "true");
+    if (cached) variables.emplace("MESA_SHADER_CACHE_DIR", fs::absolute(options.mesaCacheFolder).string());
     const std::optional<fs::path> icd = backend == "lavapipe"      ? findLavapipe()
                                         : backend == "swiftshader" ? findSwiftShader()
                                                                    : std::nullopt;
@@ -149,6 +147,8 @@ std::unique_ptr<Device> openDevice(const std::string& backend, const DeviceOptio
 {
     if (isVulkan(backend)) return makeVulkanDevice(backend, options);
     if (isGl(backend)) return makeGlDevice(backend, options);
+    if (backend == "cpu32") return makeCpuDevice(Precision::kFloat);
+    if (backend == "cpu64") return makeCpuDevice(Precision::kDouble);
     std::vector<std::string> known;
     for (const BackendInfo& info : listBackends())
         known.push_back(info.name);

@@ -1,5 +1,6 @@
 // The drivers of this machine, each in its worker.
 #include "harness/compile/compile.h"
+#include "harness/run/worker_explain.h"
 #include "harness/run/worker_pool.h"
 
 #include <gtest/gtest.h>
@@ -23,6 +24,19 @@ void main()
 {
     int x = int(gl_GlobalInvocationID.x);
     values[x] = texelFetch(image, ivec2(x, 0), 0) * kScale + offset;
+}
+)";
+
+// Only the driver sees that a constant index is out of bounds, since it is no constant before specialization.
+constexpr const char* kOutOfBounds = R"(#version 450
+layout(local_size_x = 4) in;
+layout(constant_id = 0) const int kIndex = 0;
+layout(binding = 2, std430) buffer Result { vec4 values[8]; };
+void main()
+{
+    vec4 first = values[0];
+
+    values[kIndex] = first * 2.0;
 }
 )";
 
@@ -114,6 +128,40 @@ TEST_P(WorkerDevices, aRefusedProgramIsAnAnswer)
     EXPECT_EQ(report.outcome, JobOutcome::kShaderError) << report.text;
     EXPECT_FALSE(report.text.empty());
     EXPECT_EQ(pool.run(GetParam(), 0, makeScaleJob(folder.path(), 1.0), 30s).outcome, JobOutcome::kDone);
+}
+
+TEST(CpuWorkers, openAndNameTheirEntries)
+{
+    WorkerOptions options;
+    options.executable = CROSSRAY_BINARY_DIR "/worker_program";
+    WorkerPool pool(options);
+    for (const std::string backend : {"cpu32", "cpu64"}) {
+        EXPECT_EQ(pool.fingerprint(backend).backend, backend);
+        Job job;
+        job.programs = {{"entry/none.comp", {}, {}, "", "key"}};
+        job.dispatches = {{0, {}, 1, 1, 1}};
+        const JobReport report = pool.run(backend, 0, job, 30s);
+        EXPECT_EQ(report.outcome, JobOutcome::kShaderError);
+        EXPECT_NE(report.text.find("entry/none.comp"), std::string::npos) << report.text;
+    }
+}
+
+TEST_P(WorkerDevices, aComplaintAboutGeneratedTextNamesTheSource)
+{
+    if (GetParam() == "lavapipe" || GetParam() == "swiftshader") GTEST_SKIP() << "no text reaches this driver";
+    WorkerPool pool(options);
+    std::ofstream(folder.path() / "scale.comp") << kOutOfBounds;
+    ShaderCompiler compiler({});
+    CompileOptions compileOptions;
+    compileOptions.includeRoot = folder.path();
+    compileOptions.specialization = {{"kIndex", 9}};
+    Job job;
+    job.programs = {
+        {"scale.comp", compileOptions.specialization, {}, compiler.compile("scale.comp", compileOptions).glsl, "key"}};
+    const JobReport report = runExplained(pool, compiler, folder.path(), GetParam(), 0, job, 30s);
+    EXPECT_EQ(report.outcome, JobOutcome::kShaderError);
+    EXPECT_NE(report.text.find((folder.path() / "scale.comp").string() + ":9: error: "), std::string::npos)
+        << report.text;
 }
 
 INSTANTIATE_TEST_SUITE_P(Backends, WorkerDevices,
