@@ -177,6 +177,12 @@ void buildCamera(const TableReader& top, Case& testCase)
     Camera& camera = testCase.camera;
     buildDepthConvention(table, testCase);
     camera.projection = static_cast<ProjectionKind>(table.choice("projection"));
+    if (camera.projection == ProjectionKind::kOrthographic &&
+        camera.depthConvention == DepthConvention::kInfiniteReversed) {
+        throw InputError(table.position("depth"),
+                         "\"depth\" is \"infinite_reversed\" in an orthographic view, whose depth "
+                         "cannot be infinite; reversed and standard are allowed");
+    }
     camera.fovYDegrees = table.number("fov");
     camera.orthographicHeight = table.number("height");
     camera.nearDistance = table.number("near");

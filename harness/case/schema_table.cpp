@@ -69,7 +69,8 @@ std::vector<KeySpec> cameraKeys()
         Key("camera", "depth", kChoice)
             .oneOf({"reversed", "standard", "infinite_reversed"})
             .byDefault("\"reversed\"")
-            .says("Depth buffer: from 1 at the near plane to 0; from 0 there to 1; or from 1 there to 0 at infinity."),
+            .says("Depth buffer: from 1 at the near plane to 0; from 0 there to 1; or from 1 there to 0 at infinity "
+                  "(perspective)."),
         Key("camera", "ndc_depth", kChoice)
             .oneOf({"zero_to_one", "minus_one_to_one"})
             .byDefault("\"zero_to_one\"")

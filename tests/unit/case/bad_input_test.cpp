@@ -244,6 +244,14 @@ TEST_F(BadInput, camerasThatSeeNothing)
               "a.toml:11:6: \"up\" is along the view or has length 0; any other direction is allowed");
 }
 
+TEST_F(BadInput, anOrthographicDepthIsFinite)
+{
+    EXPECT_EQ(
+        refusal(withScene("[camera]\nprojection = \"orthographic\"\ndepth = \"infinite_reversed\"\n")),
+        "a.toml:12:9: \"depth\" is \"infinite_reversed\" in an orthographic view, whose depth cannot be infinite; "
+        "reversed and standard are allowed");
+}
+
 TEST_F(BadInput, primitivesHaveWhatTheirShapeNeeds)
 {
     const auto primitive = [&](const std::string& keys) {
