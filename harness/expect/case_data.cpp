@@ -100,7 +100,8 @@ std::vector<SurfacePoint> readSurfaces(const GBuffer& gbuffer, const std::vector
         const double* n = &normals.values[pixel * 3];
         SurfacePoint& surface = surfaces[pixel];
         surface.positionWS = {p[0], p[1], p[2]};
-        surface.normalWS = glm::normalize(glm::dvec3(n[0], n[1], n[2]));
+        const glm::dvec3 normal(n[0], n[1], n[2]);
+        if (normal != glm::dvec3(0.0)) surface.normalWS = glm::normalize(normal);
         surface.toEyeWS = gbuffer.camera.projection == ProjectionKind::kPerspective
                               ? glm::normalize(glm::dvec3(worldFromView[3]) - surface.positionWS)
                               : glm::dvec3(worldFromView[2]);

@@ -84,7 +84,7 @@ Mask makeMask(const CaseData& data, const Expectation& expectation, const Plane*
 //                (the direction does not depend on the thickness), the box -V; both at the entry point. A box's path is
 //                at most 100 thicknesses. A sphere's exit never reflects totally: inside, both ends of a chord meet the
 //                surface at the same angle.
-//   reflection   the mirror image for every sign of N.V.
+//   reflection   N.V of 0 and below: straight on. A normal of length 0 (recorded data): no ray, the zero vector.
 //   proxies      seen from inside: the far face or root. A ray that does not meet the proxy, or whose hit is not in
 //   front of
 //                the camera, is a miss; depth and screen position are 0 then.

@@ -265,6 +265,10 @@ TEST(ReflectAtSurface, byHand)
     expectNear(reflectAtSurface(seenAt(0.0)).dirWS, {0, 0, 1}, 0.0);
     expectNear(reflectAtSurface({{1, 2, 3}, {0, 1, 0}, {0.6, 0.8, 0}}).dirWS, {-0.6, 0.8, 0}, 1e-15);
     expectNear(reflectAtSurface({{1, 2, 3}, {0, 1, 0}, {0.6, 0.8, 0}}).originWS, {1, 2, 3}, 0.0);
-    // Seen from behind: still the mirror image.
-    expectNear(reflectAtSurface(seenAt(120.0)).dirWS, {std::sin(120 * kDegree), 0, std::cos(120 * kDegree)}, 1e-15);
+    // Seen from behind: as the grazing surface between the two, straight on.
+    expectNear(reflectAtSurface(seenAt(120.0)).dirWS, -seenAt(120.0).toEyeWS, 1e-15);
+    expectNear(reflectAtSurface(seenAt(90.0)).dirWS, {1, 0, 0}, 1e-15);
+    const EffectRay none = reflectAtSurface({{1, 2, 3}, {0, 0, 0}, {0, 0, 1}});
+    EXPECT_EQ(none.status, HitReason::kDegenerateRay);
+    expectNear(none.dirWS, {0, 0, 0}, 0.0);
 }
