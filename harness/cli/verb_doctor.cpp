@@ -69,7 +69,9 @@ int diagnose(const GlobalOptions& global)
 
     fmt::print("\nbackends\n");
     const std::vector<BackendInfo> known = listBackends();
-    WorkerPool pool({false, folders.cache / "mesa", 1});
+    WorkerOptions workers;
+    workers.mesaCacheFolder = folders.cache / "mesa";
+    WorkerPool pool(workers);
     for (const BackendInfo& info : known)
         healthy = diagnoseBackend(info, known, pool, style) && healthy;
     return static_cast<int>(healthy ? ExitCode::kAsExpected : ExitCode::kEnvironment);

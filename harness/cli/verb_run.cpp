@@ -151,7 +151,11 @@ int runCases(const GlobalOptions& global, const RunOptions& options)
     Progress progress({chooseProgress(options.progress), options.quiet, options.verbose, text, stderr, style,
                        selected.cases.size(), selected.cases.size() * backends.names.size()});
     {
-        WorkerPool pool({options.validation, folders.cache / "mesa", cores});
+        WorkerOptions workers;
+        workers.validation = options.validation;
+        workers.mesaCacheFolder = folders.cache / "mesa";
+        workers.cores = cores;
+        WorkerPool pool(workers);
         ShaderCompiler compiler(folders.cache / "spirv");
         ExecuteOptions execution;
         execution.backends = backends.names;
