@@ -27,6 +27,8 @@ namespace crossray {
 
 namespace {
 
+constexpr size_t kUncompressedValues = 1 << 16; // 256 KiB
+
 // A file in memory: it is read once, so that what was checked is what is decoded.
 class MemoryInput final : public Imf::IStream {
   public:
@@ -179,9 +181,11 @@ std::vector<Imf::Header> makeHeaders(std::span<const Plane> planes,
         Imf::Header header(Imath::Box2i({0, 0}, corner), Imath::Box2i({0, 0}, {plane.width - 1, plane.height - 1}));
         header.setName(plane.name);
         header.setType(Imf::SCANLINEIMAGE);
-        header.compression() = Imf::ZIP_COMPRESSION;
-        header.zipCompressionLevel() =
-            1; // planes are written once a case: speed counts, and the higher levels gain little
+        // Small planes are written once a case and backend: whole as they are they take a quarter of the time. For
+        // large ones the disk is what costs, and the higher levels gain little.
+        const bool large = plane.values.size() > kUncompressedValues;
+        header.compression() = large ? Imf::ZIP_COMPRESSION : Imf::NO_COMPRESSION;
+        header.zipCompressionLevel() = 1;
         for (const char* name : channelNames(plane.channels))
             header.channels().insert(name, Imf::Channel(Imf::FLOAT));
         headers.push_back(header);
