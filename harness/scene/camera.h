@@ -1,6 +1,6 @@
-// Cameras. World space is right-handed, metres. View space looks down -z with +y up, so the linear depth of a point is -z of
-// its view-space position. NDC: x right, y up, z by convention. Screen space (SS): pixels, origin at the top left corner of the
-// image, y down; the centre of pixel (i, j) is (i + 0.5, j + 0.5). UV is SS divided by the image's size.
+// Cameras. World space is right-handed, metres. View space looks down -z with +y up, so the linear depth of a point is
+// -z of its view-space position. NDC: x right, y up, z by convention. Screen space (SS): pixels, origin at the top left
+// corner of the image, y down; the centre of pixel (i, j) is (i + 0.5, j + 0.5). UV is SS divided by the image's size.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -31,14 +31,15 @@ struct Ray {
 
 struct ScreenPoint {
     glm::dvec2 positionSS{0.0}; // 0 where not in front
-    double linearDepth = 0;   // metres along the view axis; negative behind the camera
-    double deviceDepth = 0;   // as stored in a depth buffer: in [0,1] inside the frustum, also for [-1,1] NDC; 0 where not in front
-    bool inFront = false;     // linearDepth > 0 (perspective: clip w > 0)
-    bool onScreen = false;    // in front and inside the image, borders included
+    double linearDepth = 0;     // metres along the view axis; negative behind the camera
+    // As stored in a depth buffer: in [0,1] inside the frustum, also for [-1,1] NDC. 0 where not in front.
+    double deviceDepth = 0;
+    bool inFront = false;  // linearDepth > 0 (perspective: clip w > 0)
+    bool onScreen = false; // in front and inside the image, borders included
 };
 
-// worldFromView of a camera at `eyeWS` that looks at `targetWS`. Throws InputError when the eye is the target or the view is
-// parallel to `upWS`.
+// worldFromView of a camera at `eyeWS` that looks at `targetWS`. Throws InputError when the eye is the target or the
+// view is parallel to `upWS`.
 glm::dmat4 makeLookAt(const glm::dvec3& eyeWS, const glm::dvec3& targetWS, const glm::dvec3& upWS);
 
 glm::dmat4 computeViewFromWorld(const Camera& camera);
@@ -56,8 +57,8 @@ double computeLinearDepth(const Camera& camera, double deviceDepth);
 // Depth-buffer value of "no surface": 0 for the reversed conventions, 1 for the standard one.
 double clearedDeviceDepth(const Camera& camera);
 
-// Throws InputError with what is allowed when a number is NaN, infinite or out of range, the world matrix is not rigid (to 1e-6),
-// the image is not 1 to 16384 a side, or an orthographic camera asks for an infinite far plane.
+// Throws InputError with what is allowed when a number is NaN, infinite or out of range, the world matrix is not rigid
+// (to 1e-6), the image is not 1 to 16384 a side, or an orthographic camera asks for an infinite far plane.
 void validateCamera(const Camera& camera);
 
 } // namespace crossray

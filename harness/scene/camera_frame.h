@@ -61,7 +61,8 @@ class CameraFrame {
     bool covers(const ScreenPoint& point) const
     {
         return point.onScreen && point.linearDepth >= camera_.nearDistance &&
-               (camera_.depthConvention == DepthConvention::kInfiniteReversed || point.linearDepth <= camera_.farDistance);
+               (camera_.depthConvention == DepthConvention::kInfiniteReversed ||
+                point.linearDepth <= camera_.farDistance);
     }
 
   private:

@@ -141,6 +141,8 @@ std::vector<Part> readParts(const std::filesystem::path& file)
         throw;
     } catch (const std::exception& error) { // the library's own, of many types
         std::string reason = error.what();
+        if (const size_t named = reason.find("\". "); named != std::string::npos)
+            reason.erase(0, named + 3); // the file
         std::replace(reason.begin(), reason.end(), '\n', ' ');
         throw InputError(position, fmt::format("truncated or damaged ({}); allowed: a whole OpenEXR file", reason));
     }
@@ -259,7 +261,7 @@ std::map<std::string, Plane> readExrChannels(const std::filesystem::path& file)
     std::map<std::string, Plane> channels;
     for (const Part& part : parts)
         for (const RawChannel& channel : part.channels) {
-            const std::string name = parts.size() > 1 ? part.name + "." + channel.name : channel.name;
+            const std::string name = part.name.empty() ? channel.name : part.name + "." + channel.name;
             Plane plane(name, part.width, part.height, 1);
             for (size_t i = 0; i < plane.values.size(); ++i)
                 plane.values[i] = channel.value(i);

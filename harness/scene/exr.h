@@ -27,8 +27,8 @@ void writeExr(const std::filesystem::path& file, std::span<const Plane> planes,
 // or foreign file.
 std::vector<Plane> readExr(const std::filesystem::path& file);
 // Any flat scan-line EXR's channels by full name, each as a one-channel plane: the channel's own name
-// ("ViewLayer.Depth.Z"), behind the part's name and a dot where the file has several parts ("Color.R"). Half and uint
-// become doubles. Throws InputError as readExr.
+// ("ViewLayer.Depth.Z"), behind the part's name and a dot where the part has a name ("Color.R"). Half and uint become
+// doubles. Throws InputError as readExr.
 std::map<std::string, Plane> readExrChannels(const std::filesystem::path& file);
 
 } // namespace crossray

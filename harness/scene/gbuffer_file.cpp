@@ -105,8 +105,11 @@ class Reader {
         for (int y = 0; y < camera_.height; ++y)
             for (int x = 0; x < camera_.width; ++x) {
                 double value = plane.at(x, y);
-                if (source == GBufferChannel::kPositionWS)
-                    value = frame_.linearDepth({plane.at(x, y, 0), plane.at(x, y, 1), plane.at(x, y, 2)});
+                if (source == GBufferChannel::kPositionWS) {
+                    const glm::dvec3 position(plane.at(x, y, 0), plane.at(x, y, 1), plane.at(x, y, 2));
+                    if (position == glm::dvec3(0.0)) continue; // no surface
+                    value = frame_.linearDepth(position);
+                }
                 if (!(value >= 0.0))
                     fail(fmt::format("{} is {} at ({}, {}); allowed: a depth of 0 and more", nameOf(source), value, x,
                                      y));

@@ -15,9 +15,10 @@ namespace crossray {
 
 enum class RadiancePattern { kSolid, kChecker, kGradient };
 
-// Unlit emitted radiance as a function of the position. Checker: cells of `cellSize` metres in the primitive's local frame,
-// colorA where the sum of the cell indices is even; on a plane and on a box's face only the two axes along the face count, since
-// across it rounding would choose the cell. Gradient: from colorA to colorB along the local axis over the (finite) extent.
+// Unlit emitted radiance as a function of the position. Checker: cells of `cellSize` metres in the primitive's local
+// frame, colorA where the sum of the cell indices is even; on a plane and on a box's face only the two axes along the
+// face count, since across it rounding would choose the cell. Gradient: from colorA to colorB along the local axis over
+// the (finite) extent.
 struct Radiance {
     RadiancePattern pattern = RadiancePattern::kSolid;
     glm::dvec3 colorA{0.8};
@@ -32,9 +33,9 @@ enum class PrimitiveShape { kPlane, kSphere, kBox };
 struct Primitive {
     PrimitiveShape shape = PrimitiveShape::kPlane;
     glm::dvec3 center{0.0};
-    glm::dmat3 worldFromLocal{1.0};                                        // rotation
-    glm::dvec3 halfExtents{std::numeric_limits<double>::infinity()};       // plane: local x and y; box: all three
-    double radius = 1.0;                                                   // sphere
+    glm::dmat3 worldFromLocal{1.0};                                  // rotation
+    glm::dvec3 halfExtents{std::numeric_limits<double>::infinity()}; // plane: local x and y; box: all three
+    double radius = 1.0;                                             // sphere
     Radiance radiance;
     std::string material = "diffuse"; // "diffuse", "mirror" (traced by reflection) or "glass" (traced by refraction)
     double ior = 1.5;                 // glass
@@ -55,7 +56,7 @@ struct Scene {
 };
 
 struct SurfaceHit {
-    double distance = 0;     // along the unit ray, metres
+    double distance = 0; // along the unit ray, metres
     glm::dvec3 positionWS{0.0};
     glm::dvec3 normalWS{0.0}; // unit, geometric: outward for spheres and boxes, local +z for planes
     int primitive = -1;
@@ -64,14 +65,15 @@ struct SurfaceHit {
 
 inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-// Nearest hit with distance in (minDistance, maxDistance); planes are hit from both sides. `ignorePrimitive` is skipped.
+// Nearest hit with distance in (minDistance, maxDistance); planes are hit from both sides. `ignorePrimitive` is
+// skipped.
 std::optional<SurfaceHit> castRay(const Scene& scene, const Ray& ray, double minDistance = 1e-9,
                                   double maxDistance = kNoLimit, int ignorePrimitive = -1);
 // All hits of one primitive along the ray, in order of distance, from (-inf, inf).
 std::vector<SurfaceHit> intersectPrimitive(const Primitive& primitive, const Ray& ray);
 
-// Throws InputError when a number is NaN, a size is not above 0, a frame is no rotation, a material or pattern is unknown or does
-// not go with the shape (a plane of glass, a gradient over an infinite extent).
+// Throws InputError when a number is NaN, a size is not above 0, a frame is no rotation, a material or pattern is
+// unknown or does not go with the shape (a plane of glass, a gradient over an infinite extent).
 void validateScene(const Scene& scene);
 
 // Object index as the G-buffer shows it: the primitive's own, or its number in the scene from 1.

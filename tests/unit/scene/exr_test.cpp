@@ -152,6 +152,10 @@ TEST_F(Exr, SaysWhatIsWrongWithAFile)
     EXPECT_NE(messageOf("{\"a\": 1, \"b\": [1, 2, 3]}").find("not an OpenEXR file"), std::string::npos);
     EXPECT_NE(messageOf(good.substr(0, 100)).find("truncated inside its header"), std::string::npos);
     EXPECT_NE(messageOf(good.substr(0, good.size() / 2)).find("truncated"), std::string::npos);
+    std::string unfinished = good; // as a writer leaves it that was interrupted: no line is in the table yet
+    const size_t table = good.rfind("scanlineimage") + 13 + 2; // the last attribute, the ends of part and headers
+    std::fill_n(unfinished.begin() + static_cast<std::ptrdiff_t>(table), 400, '\0');
+    EXPECT_NE(messageOf(unfinished).find("lacks scan lines"), std::string::npos);
     EXPECT_THROW(readExrChannels(folder_ / "missing.exr"), InputError);
     EXPECT_THROW(readExrChannels(folder_), InputError);
 }

@@ -85,6 +85,13 @@ TEST(RandomRoom, SeedSevenIsAlwaysTheSameRoom)
 {
     const Scene scene = makeRandomRoom(7);
     const Camera camera = makeRandomRoomCamera(7, 64, 64);
+    double sum = 0.0; // every length and centre, with a weight for each place
+    for (size_t i = 3; i < scene.primitives.size(); ++i) {
+        const Primitive& p = scene.primitives[i];
+        const glm::dvec3 half = p.shape == PrimitiveShape::kSphere ? glm::dvec3(p.radius) : p.halfExtents;
+        sum += glm::dot(half, glm::dvec3(1, 2, 3)) + glm::dot(p.center, glm::dvec3(5, 7, 11));
+    }
+    EXPECT_NEAR(sum, -63.917551046973415, 1e-10);
     EXPECT_EQ(scene.primitives[3].center.x, -2.25511629945531);
     EXPECT_EQ(scene.primitives[16].radius, 0.8334062737787323);
     EXPECT_EQ(camera.worldFromView[3].x, 4.264453144651498);

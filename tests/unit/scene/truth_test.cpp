@@ -259,6 +259,32 @@ TEST(Truth, RandomRoomsKeepTheirWord)
     }
 }
 
+// Nothing in the tracer is a length of its own: a world a hundred times larger or smaller has the same answers.
+TEST(Truth, DoesNotDependOnTheUnitOfLength)
+{
+    for (const double scale : {100.0, 0.01})
+        for (uint64_t seed = 20; seed < 24; ++seed) {
+            Scene scene = makeRandomRoom(seed);
+            Camera camera = makeRandomRoomCamera(seed, 48, 27);
+            const Truth truth = computeTruth(scene, camera, TraceEffect::kReflection);
+            for (Primitive& primitive : scene.primitives) {
+                primitive.center *= scale;
+                primitive.halfExtents *= scale;
+                primitive.radius *= scale;
+            }
+            for (int row = 0; row < 3; ++row)
+                camera.worldFromView[3][row] *= scale;
+            camera.nearDistance *= scale;
+            camera.farDistance *= scale;
+            const Truth scaled = computeTruth(scene, camera, TraceEffect::kReflection);
+            for (size_t i = 0; i < truth.pixels.size(); ++i) {
+                ASSERT_EQ(truth.pixels[i].screen, scaled.pixels[i].screen);
+                expectNear(scaled.pixels[i].rayDirWS, truth.pixels[i].rayDirWS, 1e-10);
+                expectNear(scaled.pixels[i].hitPositionWS / scale, truth.pixels[i].hitPositionWS, 1e-8);
+            }
+        }
+}
+
 TEST(Truth, RejectsBrokenInput)
 {
     Scene scene;
