@@ -47,3 +47,11 @@ foreach(precision 32 64)
   target_compile_definitions(test_shader${precision} PRIVATE CROSSRAY_GLSL_PRECISION=${precision})
 endforeach()
 target_compile_options(test_shader32 PRIVATE -fsingle-precision-constant)
+
+# The binary from outside.
+file(GLOB cli_test_sources CONFIGURE_DEPENDS tests/cli/*.cpp)
+if(cli_test_sources AND TARGET crossray)
+  crossray_test_program(test_program SOURCES ${cli_test_sources} USES crossray_options PREFIX cli.)
+  target_link_libraries(test_program PRIVATE nlohmann_json::nlohmann_json pugixml::pugixml)
+  add_dependencies(test_program crossray)
+endif()

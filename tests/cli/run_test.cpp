@@ -1,0 +1,285 @@
+// `crossray run` from outside: exit codes, the last line, and what lies in the run's folder afterwards.
+#include "tests/cli/program.h"
+
+#include <fmt/format.h>
+#include <pugixml.hpp>
+
+#include <csignal>
+#include <thread>
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr const char* kCpu = "--backend cpu32,cpu64";
+
+// Waits until the process has printed a verdict; false after ten seconds.
+bool waitForVerdict(const fs::path& output)
+{
+    for (int i = 0; i < 1000; ++i) {
+        std::error_code failure;
+        if (fs::file_size(output, failure) > 0 && !failure) return true;
+        std::this_thread::sleep_for(10ms);
+    }
+    return false;
+}
+
+std::vector<fs::path> listFiles(const fs::path& folder)
+{
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+        if (entry.is_regular_file()) files.push_back(entry.path());
+    }
+    return files;
+}
+
+using RunTest = CliTest;
+
+} // namespace
+
+TEST_F(RunTest, passesAndSaysSoOnItsLastLine)
+{
+    writeCase("cases/a.toml", "a");
+    writeCase("cases/b.toml", "b");
+    const Outcome outcome = run(fmt::format("run {}", kCpu));
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_EQ(outcome.lastLine(), "4 passed, 0 failed, 0 skipped");
+    const auto json = readRun();
+    EXPECT_EQ(json["schema"], "crossray-run/1");
+    EXPECT_EQ(json["interrupted"], false);
+    EXPECT_EQ(json["cases"].size(), 2u);
+    EXPECT_FALSE(fs::exists(folder_ / "out/last/planes")); // nothing failed
+}
+
+TEST_F(RunTest, aFailureNamesCaseBackendPixelAndPlace)
+{
+    writeCase("cases/a.toml", "dir/a", "", kFails);
+    const Outcome outcome = run("run --backend cpu64");
+    EXPECT_EQ(outcome.exitCode, 1);
+    EXPECT_EQ(outcome.lastLine(), "0 passed, 1 failed, 0 skipped");
+    EXPECT_NE(outcome.out.find("FAIL  dir/a  cpu64  HitSuccess   64 of 64 px"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("at (0, 0)"), std::string::npos);
+    EXPECT_NE(outcome.out.find("cases/a.toml:9:1"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("crossray run dir/a --backend cpu64 --planes all"), std::string::npos);
+    EXPECT_TRUE(fs::exists(folder_ / "out/last/planes/dir/a/cpu64.exr"));
+    EXPECT_TRUE(fs::exists(folder_ / "out/last/planes/dir/a/expected.exr"));
+    EXPECT_EQ(outcome.out.find('\x1b'), std::string::npos); // no colours in a file
+}
+
+TEST_F(RunTest, usageErrorsAreOneLineAndExitTwo)
+{
+    writeCase("cases/a.toml", "a");
+    for (const char* wrong :
+         {"run --no-such-option", "run --backend metal", "run --shard 3/2", "run -k 'a and'", "run -j 0",
+          "run --planes some", "run nothing.toml", "frobnicate", "", "diff a", "run --timeout -1"}) {
+        const Outcome outcome = run(wrong);
+        EXPECT_EQ(outcome.exitCode, 2) << wrong;
+        EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+        EXPECT_TRUE(outcome.out.empty()) << outcome.out;
+    }
+}
+
+TEST_F(RunTest, nothingSelectedExitsFourWithTheNearestName)
+{
+    writeCase("cases/a.toml", "hiz/two_planes");
+    const Outcome outcome = run("run hiz/two_plnes --backend cpu64");
+    EXPECT_EQ(outcome.exitCode, 4);
+    EXPECT_NE(outcome.err.find("the nearest is \"hiz/two_planes\""), std::string::npos) << outcome.err;
+    EXPECT_EQ(run("run -k missing --backend cpu64").exitCode, 4);
+    EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
+TEST_F(RunTest, aMissingBackendExitsThree)
+{
+    writeCase("cases/a.toml", "a");
+    const Outcome outcome = run("run --backend 'vulkan:No Such Device'");
+    EXPECT_EQ(outcome.exitCode, 3);
+    EXPECT_EQ(outcome.lastLine(), "0 passed, 1 failed, 0 skipped");
+}
+
+TEST_F(RunTest, selectsByPathNameTagAndExpression)
+{
+    writeCase("cases/hiz/a.toml", "hiz/a", "tags = [\"slow\"]");
+    writeCase("cases/hiz/b.toml", "hiz/b");
+    writeCase("cases/proxy/c.toml", "proxy/c");
+    writeCase("elsewhere/d.toml", "d");
+    const std::vector<std::pair<std::string, int>> selections{
+        {"", 3},           {"hiz", 2},           {"cases/hiz", 2},        {"hiz/a", 1},           {"'*/a'", 1},
+        {"--tag slow", 1}, {"-k 'not slow'", 2}, {"elsewhere/d.toml", 1}, {"elsewhere hiz/a", 2}, {"'cases/h*'", 2},
+        {"hiz/a hiz", 2}};
+    for (const auto& [selection, count] : selections) {
+        const Outcome outcome = run(fmt::format("run {} --backend cpu64 -q", selection));
+        EXPECT_EQ(outcome.lastLine(), fmt::format("{} passed, 0 failed, 0 skipped", count)) << selection << outcome.err;
+    }
+}
+
+TEST_F(RunTest, shardsPartitionTheWhole)
+{
+    for (int i = 0; i < 20; ++i)
+        writeCase(fmt::format("cases/{}.toml", i), fmt::format("case{}", i));
+    std::vector<std::string> names;
+    for (int index = 1; index <= 3; ++index) {
+        run(fmt::format("run --shard {}/3 --backend cpu64 -q -o shard{}", index, index));
+        const auto json = readRun(fmt::format("shard{}", index));
+        for (const auto& testCase : json["cases"])
+            names.push_back(testCase["name"]);
+    }
+    std::sort(names.begin(), names.end());
+    EXPECT_EQ(names.size(), 20u);
+    EXPECT_EQ(std::unique(names.begin(), names.end()), names.end());
+}
+
+TEST_F(RunTest, aBrokenCaseFileIsOneLineAndStopsTheRunUnlessItShallKeepGoing)
+{
+    writeCase("cases/a.toml", "a");
+    writeCase("cases/b.toml", "b", "no_such_key = 1");
+    const Outcome stopped = run("run --backend cpu64");
+    EXPECT_EQ(stopped.exitCode, 2);
+    EXPECT_NE(stopped.err.find("cases/b.toml:4:1: unknown key \"no_such_key\""), std::string::npos) << stopped.err;
+    EXPECT_TRUE(stopped.out.empty());
+    const Outcome kept = run("run --backend cpu64 --keep-going");
+    EXPECT_EQ(kept.exitCode, 2);
+    EXPECT_EQ(kept.lastLine(), "1 passed, 0 failed, 0 skipped");
+    EXPECT_EQ(readRun()["brokenFiles"].size(), 1u);
+    EXPECT_EQ(run("run a --backend cpu64").exitCode, 0); // found in spite of it
+}
+
+TEST_F(RunTest, aTruncatedGBufferBreaksItsCaseAlone)
+{
+    writeCase("cases/a.toml", "a");
+    writeFile("cases/room.exr", "v/1\x01\x02");
+    writeFile("cases/camera.json", "{");
+    writeFile("cases/b.toml",
+              "schema = 1\nname = \"b\"\nsummary = \"A truncated file.\"\n\n[gbuffer]\nfile = \"room.exr\"\n"
+              "camera = \"camera.json\"\n\n[[expect]]\noutput = \"HitSuccess\"\nconstant = \"no_raycast\"\n");
+    const Outcome outcome = run("run --backend cpu64 --keep-going");
+    EXPECT_EQ(outcome.exitCode, 2) << outcome.out << outcome.err;
+    EXPECT_TRUE(outcome.lastLine().starts_with("1 passed, ")) << outcome.out << outcome.err;
+    EXPECT_EQ(readRun()["brokenFiles"].size(), 1u);
+}
+
+TEST_F(RunTest, killingAWorkerCostsOneCase)
+{
+    for (int i = 0; i < 40; ++i)
+        writeCase(fmt::format("cases/{:02}.toml", i), fmt::format("case{:02}", i));
+    const Outcome outcome = runWhile("run --backend cpu64 -j 1 -v --repeat 40", [&](int process) {
+        ASSERT_TRUE(waitForVerdict(folder_ / ".stdout"));
+        const std::vector<int> workers = findWorkers(process, "cpu64");
+        ASSERT_EQ(workers.size(), 1u);
+        kill(workers[0], SIGSTOP); // so that it dies with a job in its hands
+        std::this_thread::sleep_for(200ms);
+        kill(workers[0], SIGKILL);
+    });
+    EXPECT_EQ(outcome.exitCode, 1);
+    EXPECT_EQ(outcome.lastLine(), "39 passed, 1 failed, 0 skipped");
+    EXPECT_EQ(readRun()["verdicts"]["crash"], 1);
+    EXPECT_NE(outcome.out.find("CRASH"), std::string::npos);
+    EXPECT_NE(outcome.out.find("signal 9"), std::string::npos) << outcome.out;
+}
+
+TEST_F(RunTest, aWorkerThatHangsIsATimeoutOfOneCase)
+{
+    for (int i = 0; i < 20; ++i)
+        writeCase(fmt::format("cases/{:02}.toml", i), fmt::format("case{:02}", i));
+    const Outcome outcome = runWhile("run --backend cpu64 -j 1 -v --repeat 40 --timeout 2", [&](int process) {
+        ASSERT_TRUE(waitForVerdict(folder_ / ".stdout"));
+        const std::vector<int> workers = findWorkers(process, "cpu64");
+        ASSERT_EQ(workers.size(), 1u);
+        kill(workers[0], SIGSTOP);
+    });
+    EXPECT_EQ(outcome.lastLine(), "19 passed, 1 failed, 0 skipped");
+    EXPECT_EQ(readRun()["verdicts"]["timeout"], 1);
+}
+
+TEST_F(RunTest, anInterruptionLeavesWholeFilesAndExits130)
+{
+    for (int i = 0; i < 40; ++i)
+        writeCase(fmt::format("cases/{:02}.toml", i), fmt::format("case{:02}", i), "", i % 2 == 0 ? kHolds : kFails);
+    const Outcome outcome = runWhile("run --backend cpu64 -j 1 -v --repeat 40 --planes all", [&](int process) {
+        ASSERT_TRUE(waitForVerdict(folder_ / ".stdout"));
+        kill(process, SIGINT);
+    });
+    EXPECT_EQ(outcome.exitCode, 130);
+    const auto json = readRun();
+    EXPECT_EQ(json["interrupted"], true);
+    EXPECT_EQ(json["exitCode"], 130);
+    EXPECT_LT(json["cases"].size(), 40u);
+    EXPECT_GE(json["cases"].size(), 1u);
+    size_t planes = 0;
+    for (const fs::path& file : listFiles(folder_ / "out/last")) {
+        EXPECT_TRUE(file.extension() == ".exr" || file.filename() == "run.json") << file;
+        if (file.extension() == ".exr" && file.stem() != "expected") {
+            ++planes;
+            EXPECT_EQ(run(fmt::format("diff '{}' '{}'", file.string(), file.string())).exitCode, 0) << file;
+        }
+    }
+    EXPECT_GE(planes, 1u);
+    for (const auto& testCase : json["cases"])
+        EXPECT_TRUE(fs::exists(folder_ / "out/last" / std::string(testCase["backends"][0]["planes"])));
+}
+
+TEST_F(RunTest, lastFailedRunsTheFailuresAgain)
+{
+    writeCase("cases/a.toml", "a");
+    writeCase("cases/b.toml", "b", "", kFails);
+    EXPECT_EQ(run("run --backend cpu64").exitCode, 1);
+    EXPECT_EQ(run("run --backend cpu64 --last-failed").lastLine(), "0 passed, 1 failed, 0 skipped");
+    writeCase("cases/b.toml", "b");
+    EXPECT_EQ(run("run --backend cpu64 --last-failed").lastLine(), "1 passed, 0 failed, 0 skipped");
+    EXPECT_EQ(run("run --backend cpu64 --last-failed").exitCode, 4);
+}
+
+TEST_F(RunTest, knownFailuresMustFailAndStopAtTheFirst)
+{
+    writeCase("cases/a.toml", "a",
+              "[[known_failure]]\nissue = \"#1\"\nuntil = \"2999-01-01\"\nreason = \"of the test\"\n", kFails);
+    writeCase("cases/b.toml", "b", "must_fail = true", kFails);
+    const Outcome outcome = run("run --backend cpu64");
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.out << outcome.err;
+    EXPECT_EQ(outcome.lastLine(), "1 passed, 0 failed, 1 skipped");
+    writeCase("cases/a.toml", "a",
+              "[[known_failure]]\nissue = \"#1\"\nuntil = \"2020-01-01\"\nreason = \"of the test\"\n", kFails);
+    EXPECT_EQ(run("run --backend cpu64").exitCode, 1);
+    writeCase("cases/b.toml", "b", "must_fail = true", kHolds);
+    EXPECT_EQ(run("run --backend cpu64 -x -j 1").lastLine(), "0 passed, 1 failed, 0 skipped");
+}
+
+TEST_F(RunTest, goldensAreRecordedByReviewAlone)
+{
+    writeCase("cases/a.toml", "a", "", "output = \"HitSuccess\"\ngolden = \"a.exr\"\nwhere = \"all\"\n");
+    const Outcome missing = run("run --backend cpu64 --planes all");
+    EXPECT_EQ(missing.exitCode, 1);
+    EXPECT_EQ(readRun()["verdicts"]["missing-golden"], 1);
+    EXPECT_FALSE(fs::exists(folder_ / "cases/a.exr"));
+    EXPECT_EQ(run("review").exitCode, 1);
+    const Outcome accepted = run("review --accept a");
+    EXPECT_EQ(accepted.exitCode, 0) << accepted.err;
+    EXPECT_TRUE(fs::exists(folder_ / "cases/a.exr"));
+    const auto sidecar = nlohmann::json::parse(readFile("cases/a.exr.json"));
+    EXPECT_EQ(sidecar["backend"], "cpu64");
+    EXPECT_FALSE(sidecar["fingerprint"]["cpu"].empty());
+    EXPECT_EQ(run("run --backend cpu64,cpu32").exitCode, 0);
+    EXPECT_EQ(run("review --list").exitCode, 0);
+}
+
+TEST_F(RunTest, jsonStandsAloneOnStandardOutput)
+{
+    writeCase("cases/a.toml", "a", "", kFails);
+    const Outcome outcome = run("run --backend cpu64 --json --junit out/junit.xml --github on");
+    const auto json = nlohmann::json::parse(outcome.out);
+    EXPECT_EQ(json["counts"]["failed"], 1);
+    EXPECT_EQ(json["notPassed"][0]["case"], "a");
+    EXPECT_NE(outcome.err.find("0 passed, 1 failed, 0 skipped"), std::string::npos);
+    EXPECT_NE(outcome.err.find("::error file=cases/a.toml,line="), std::string::npos);
+    pugi::xml_document junit;
+    EXPECT_TRUE(junit.load_file((folder_ / "out/junit.xml").c_str()));
+}
+
+TEST_F(RunTest, refusesAnOutputFolderThatIsNotItsOwn)
+{
+    writeCase("cases/a.toml", "a");
+    writeFile("photos/planes/mine.jpg", "mine");
+    EXPECT_EQ(run("run --backend cpu64 -o photos").exitCode, 2);
+    EXPECT_EQ(readFile("photos/planes/mine.jpg"), "mine");
+}

@@ -1,0 +1,111 @@
+// The other verbs from outside.
+#include "tests/cli/program.h"
+
+#include <fmt/format.h>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using VerbTest = CliTest;
+
+} // namespace
+
+TEST_F(VerbTest, listPrintsNamesAndSummaries)
+{
+    writeCase("cases/a.toml", "hiz/a", "tags = [\"slow\"]");
+    writeCase("cases/b.toml", "b");
+    const Outcome text = run("list");
+    EXPECT_EQ(text.exitCode, 0);
+    EXPECT_EQ(text.out, "hiz/a  A plane of the test.\nb      A plane of the test.\n");
+    const auto json = nlohmann::json::parse(run("list --json --tag slow").out);
+    ASSERT_EQ(json.size(), 1u);
+    EXPECT_EQ(json[0]["name"], "hiz/a");
+    EXPECT_EQ(json[0]["file"], "cases/a.toml");
+}
+
+TEST_F(VerbTest, showSaysWhatWillRunAndWhatIsSkipped)
+{
+    writeCase("cases/a.toml", "a", "backends = [\"cpu64\"]");
+    const Outcome outcome = run("show a");
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("plane at (0, 0, -4)"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("HitSuccess: constant"), std::string::npos);
+    EXPECT_NE(outcome.out.find("cases/a.toml:9:1"), std::string::npos);
+    EXPECT_NE(outcome.out.find("cpu32        skipped: the case does not name this backend"), std::string::npos);
+    EXPECT_EQ(run("show missing").exitCode, 4);
+}
+
+TEST_F(VerbTest, compileSpeaksEachLanguage)
+{
+    const std::vector<std::pair<std::string, std::string>> targets{{"glsl", "#version 450"},
+                                                                   {"essl", "#version 3"},
+                                                                   {"hlsl", "numthreads"},
+                                                                   {"msl", "#include <metal_stdlib>"},
+                                                                   {"spirv", "OpEntryPoint"}};
+    for (const auto& [target, text] : targets) {
+        const Outcome outcome = run(fmt::format("compile entry/depth_pyramid.comp --target {}", target));
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        EXPECT_NE(outcome.out.find(text), std::string::npos) << target;
+    }
+    EXPECT_EQ(run("compile depth_pyramid.comp --target spirv -o a.spv").exitCode, 0);
+    EXPECT_EQ(readFile("a.spv").substr(0, 4), "\x03\x02\x23\x07");
+    EXPECT_EQ(run("compile depth_pyramid.comp --target cobol").exitCode, 2);
+    EXPECT_EQ(run("compile depth_pyramid.comp --spec NoSuchConstant=1").exitCode, 2);
+    EXPECT_EQ(run("compile depth_pyramid.comp --spec x").exitCode, 2);
+    EXPECT_EQ(run("compile nothing.comp").exitCode, 2);
+}
+
+TEST_F(VerbTest, compileNamesTheLineOfTheSource)
+{
+    writeFile("broken.comp", "#version 450\nlayout(local_size_x = 1) in;\nvoid main()\n{\n    float x = nowhere;\n}\n");
+    const Outcome outcome = run("compile broken.comp");
+    EXPECT_EQ(outcome.exitCode, 2);
+    EXPECT_NE(outcome.err.find("broken.comp:5:"), std::string::npos) << outcome.err;
+}
+
+TEST_F(VerbTest, diffFindsChangedVerdictsAndPlanes)
+{
+    writeCase("cases/a.toml", "a");
+    writeCase("cases/b.toml", "b");
+    run("run --backend cpu64 --planes all -o one");
+    run("run --backend cpu64 --planes all -o two");
+    const Outcome same = run("diff one two/run.json");
+    EXPECT_EQ(same.exitCode, 0) << same.out << same.err;
+    writeCase("cases/b.toml", "b", "", kFails);
+    writeFile("cases/a.toml", "schema = 1\nname = \"a\"\nsummary = \"Now a mirror.\"\n[scene]\nsize = [8, 8]\n"
+                              "primitives = [{ shape = \"plane\", center = [0, 0, -4], normal = [0, 0, 1], material = "
+                              "\"mirror\" }]\n[projection]\nmodel = \"proxy_infinite\"\n"
+                              "[[expect]]\noutput = \"HitSuccess\"\nconstant = \"hit\"\nwhere = \"all\"\n");
+    run("run --backend cpu64 --planes all -o two");
+    const Outcome changed = run("diff one two");
+    EXPECT_EQ(changed.exitCode, 1);
+    EXPECT_NE(changed.out.find("b  cpu64  pass -> fail"), std::string::npos) << changed.out;
+    EXPECT_NE(changed.out.find("HitSuccess"), std::string::npos);
+    EXPECT_EQ(nlohmann::json::parse(run("diff one two --json").out)["changes"].size(), 2u);
+    EXPECT_EQ(run("diff one missing").exitCode, 2);
+    EXPECT_EQ(run("diff one two/planes/a/cpu64.exr").exitCode, 2);
+}
+
+TEST_F(VerbTest, doctorNamesEachBackendAndTheFolders)
+{
+    const Outcome outcome = run("doctor");
+    for (const char* name :
+         {"lavapipe", "osmesa", "softpipe", "swiftshader", "egl", "cpu32", "cpu64", "glslang", "shaders"})
+        EXPECT_NE(outcome.out.find(name), std::string::npos) << name;
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.out;
+}
+
+TEST_F(VerbTest, foldersThatAreNotThereExitThree)
+{
+    EXPECT_EQ(run("list --cases nowhere").exitCode, 3);
+    EXPECT_EQ(run("list --shaders nowhere").exitCode, 3);
+}
+
+TEST_F(VerbTest, helpAndVersionExitZero)
+{
+    EXPECT_EQ(run("--help").exitCode, 0);
+    EXPECT_EQ(run("run --help").exitCode, 0);
+    EXPECT_EQ(run("--version").out, "0.1.0\n");
+    EXPECT_EQ(run("--help").out.find("worker"), std::string::npos);
+}
