@@ -55,10 +55,11 @@ std::string_view nameOf(KeyType type)
     return "";
 }
 
-// The keys of one table by name, and their names in order.
+// The keys of one table by name, their names in order, and those that must be there.
 struct TableSpec {
     std::unordered_map<std::string_view, const KeySpec*> keys;
     std::vector<std::string> names;
+    std::vector<const KeySpec*> required;
 };
 
 const TableSpec* findTableSpec(std::string_view table)
@@ -69,6 +70,7 @@ const TableSpec* findTableSpec(std::string_view table)
             TableSpec& entry = result[spec.table];
             entry.keys.emplace(spec.key, &spec);
             entry.names.push_back(spec.key);
+            if (spec.required) entry.required.push_back(&spec);
         }
         return result;
     }();
@@ -292,21 +294,19 @@ void checkTable(const Node& node, std::string_view table)
     const TableSpec* spec = findTableSpec(table);
     assert(spec);
     if (table == "expand") return; // its keys are paths; each value is checked in the sub-case that it makes
-    const std::string where = table.empty() ? "at the top level" : fmt::format("in [{}]", table);
+    const auto where = [&] { return table.empty() ? "at the top level" : fmt::format("in [{}]", table); };
     for (const NodeEntry& entry : node.entries) {
         const auto found = spec->keys.find(entry.key);
         if (found == spec->keys.end()) {
-            throw InputError(entry.keyPlace.position(),
-                             fmt::format("unknown key \"{}\" {}{}", entry.key, where, suggest(entry.key, spec->names)));
+            throw InputError(entry.keyPlace.position(), fmt::format("unknown key \"{}\" {}{}", entry.key, where(),
+                                                                    suggest(entry.key, spec->names)));
         }
         checkValue(entry.value, *found->second);
     }
-    for (const std::string& name : spec->names) {
-        const KeySpec& key = *spec->keys.at(name);
-        if (key.required && !node.find(name)) {
-            refuse(node, fmt::format("\"{}\" is missing {}; {} is required{}", name, where,
-                                     withArticle(nameOf(key.type)), key.allowed().empty() ? "" : ": " + key.allowed()));
-        }
+    for (const KeySpec* key : spec->required) {
+        if (node.find(key->key)) continue;
+        refuse(node, fmt::format("\"{}\" is missing {}; {} is required{}", key->key, where(),
+                                 withArticle(nameOf(key->type)), key->allowed().empty() ? "" : ": " + key->allowed()));
     }
 }
 
