@@ -140,6 +140,8 @@ void addInspection(CLI::App& app, CommandLine& line)
     CLI::App& show = *app.add_subcommand("show", "Show what a case will run, expect and skip");
     show.add_option("case", line.show.testCase, "A case's name, file or glob")->type_name("CASE")->required();
     show.add_option("--backend", line.show.backends, "As for run")->type_name("NAME,...")->delimiter(',')->expected(1);
+    show.add_option("--image", line.show.image, "Run the case and draw its debug modes, on the first backend named")
+        ->type_name("FILE.png");
     show.callback([&line] { line.verb = [&line] { return showCase(line.global, line.show); }; });
 
     CLI::App& diff = *app.add_subcommand("diff", "Compare two runs, or two EXR files of planes");

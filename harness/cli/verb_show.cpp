@@ -1,3 +1,4 @@
+#include "harness/cli/picture.h"
 #include "harness/cli/verbs.h"
 #include "harness/run/case_judge.h"
 #include "harness/run/environment.h"
@@ -195,6 +196,11 @@ int showCase(const GlobalOptions& global, const ShowOptions& options)
         if (!isFirst) fmt::print("\n");
         isFirst = false;
         printCase(testCase, options, style);
+    }
+    if (!options.image.empty()) {
+        const std::string backend = options.backends.empty() ? "lavapipe" : options.backends.front();
+        const std::vector<std::string> panels = drawCase(selected.cases.front(), backend, folders, options.image);
+        fmt::print("image      {}: {} ({})\n", options.image, fmt::join(panels, ", "), backend);
     }
     return static_cast<int>(ExitCode::kAsExpected);
 }

@@ -54,6 +54,7 @@ int listCases(const GlobalOptions& global, const SelectionOptions& selection, bo
 struct ShowOptions {
     std::string testCase;
     std::vector<std::string> backends;
+    std::string image; // a PNG of what the first of the cases computes; empty: none
 };
 int showCase(const GlobalOptions& global, const ShowOptions& options);
 

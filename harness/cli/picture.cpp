@@ -1,0 +1,176 @@
+#include "harness/cli/picture.h"
+
+#include "harness/base/outputs.h"
+#include "harness/compile/compile.h"
+#include "harness/pass/pass.h"
+#include "harness/run/execute.h"
+#include "harness/run/steps.h"
+#include "harness/run/worker_pool.h"
+
+#include <fmt/format.h>
+#include <png.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace crossray {
+
+namespace {
+
+using Rgb = glm::dvec3;
+
+double encodeSrgb(double linear)
+{
+    const double value = std::clamp(linear, 0.0, 1.0);
+    return value <= 0.0031308 ? value * 12.92 : 1.055 * std::pow(value, 1.0 / 2.4) - 0.055;
+}
+
+Rgb colorOfClass(int hitClass)
+{
+    switch (static_cast<HitClass>(hitClass)) {
+    case HitClass::kHit:
+        return {0.5, 1.0, 0.5};
+    case HitClass::kMiss:
+        return {0.5, 0.5, 1.0};
+    case HitClass::kUnknown:
+        return {0.9, 0.6, 0.3};
+    case HitClass::kNoRaycast:
+        break;
+    }
+    return Rgb(0.08);
+}
+
+Rgb encodePixel(OutputType type, const Plane& plane, int x, int y, double largest)
+{
+    Rgb value(plane.at(x, y, 0));
+    for (int channel = 1; channel < std::min(plane.channels, 3); ++channel)
+        value[channel] = plane.at(x, y, channel);
+    if (plane.channels == 2) value.z = 0.0;
+    switch (type) {
+    case OutputType::kDirection:
+        return glm::dot(value, value) > 0.0 ? value * 0.5 + 0.5 : Rgb(0.0);
+    case OutputType::kDepth:
+        return glm::fract(value * 0.1);
+    case OutputType::kHitClass:
+        return colorOfClass(static_cast<int>(value.x));
+    case OutputType::kCount:
+        return largest > 0.0 ? value / largest : value;
+    case OutputType::kColor:
+        return {encodeSrgb(value.x), encodeSrgb(value.y), encodeSrgb(value.z)};
+    case OutputType::kScalar:
+        break;
+    }
+    return glm::clamp(value, 0.0, 1.0);
+}
+
+} // namespace
+
+Panel encodePanel(const Plane& plane)
+{
+    const auto info = findOutput(plane.name);
+    const OutputType type = info ? info->type : OutputType::kColor;
+    double largest = 0.0;
+    for (const double value : plane.values)
+        largest = std::isfinite(value) ? std::max(largest, value) : largest;
+
+    Panel panel{plane.name, plane.width, plane.height, {}};
+    panel.rgb.reserve(plane.pixelCount() * 3);
+    for (int y = 0; y < plane.height; ++y) {
+        for (int x = 0; x < plane.width; ++x) {
+            bool isNan = false, isInfinite = false;
+            for (int channel = 0; channel < plane.channels; ++channel) {
+                isNan = isNan || std::isnan(plane.at(x, y, channel));
+                isInfinite = isInfinite || std::isinf(plane.at(x, y, channel));
+            }
+            Rgb color = isNan || isInfinite ? Rgb(1.0, isNan ? 0.0 : 1.0, isNan ? 1.0 : 0.0)
+                                            : encodePixel(type, plane, x, y, largest);
+            for (int channel = 0; channel < 3; ++channel) {
+                panel.rgb.push_back(
+                    static_cast<unsigned char>(std::lround(std::clamp(color[channel], 0.0, 1.0) * 255)));
+            }
+        }
+    }
+    return panel;
+}
+
+void writePicture(const std::filesystem::path& file, std::span<const Panel> panels, int columns, int panelWidth)
+{
+    constexpr int kGap = 6;
+    constexpr unsigned char kBackground = 40;
+    if (panels.empty()) throw InputError("a picture needs at least one panel");
+    const int scale = std::max(1, (panelWidth + panels[0].width - 1) / panels[0].width);
+    const int cellWidth = panels[0].width * scale + kGap;
+    const int cellHeight = panels[0].height * scale + kGap;
+    const int rows = (static_cast<int>(panels.size()) + columns - 1) / columns;
+    const int width = cellWidth * std::min(columns, static_cast<int>(panels.size())) + kGap;
+    const int height = cellHeight * rows + kGap;
+    std::vector<unsigned char> pixels(static_cast<size_t>(width) * static_cast<size_t>(height) * 3, kBackground);
+    for (size_t index = 0; index < panels.size(); ++index) {
+        const Panel& panel = panels[index];
+        const int left = kGap + cellWidth * (static_cast<int>(index) % columns);
+        const int top = kGap + cellHeight * (static_cast<int>(index) / columns);
+        for (int y = 0; y < panel.height * scale; ++y) {
+            for (int x = 0; x < panel.width * scale; ++x) {
+                const auto source = static_cast<size_t>((y / scale) * panel.width + x / scale) * 3;
+                const auto target =
+                    (static_cast<size_t>(top + y) * static_cast<size_t>(width) + static_cast<size_t>(left + x)) * 3;
+                std::copy_n(panel.rgb.begin() + static_cast<std::ptrdiff_t>(source), 3,
+                            pixels.begin() + static_cast<std::ptrdiff_t>(target));
+            }
+        }
+    }
+
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    image.width = static_cast<png_uint_32>(width);
+    image.height = static_cast<png_uint_32>(height);
+    image.format = PNG_FORMAT_RGB;
+    // Beside the target, then renamed: the file is whole or absent.
+    const std::filesystem::path aside = file.string() + ".part";
+    if (!png_image_write_to_file(&image, aside.c_str(), 0, pixels.data(), 0, nullptr)) {
+        throw InputError(fmt::format("{}: cannot be written: {}", file.string(), image.message));
+    }
+    std::filesystem::rename(aside, file);
+}
+
+std::vector<std::string> drawCase(const Case& testCase, const std::string& backend, const Folders& folders,
+                                  const std::filesystem::path& file)
+{
+    Case drawn = testCase;
+    drawn.outputs.clear();
+    const bool casts = drawn.projection.model != ProjectionModel::kNone;
+    for (const char* name : {"RayDirWS", "HitSuccess", "HitDepth", "SampledColor", "HitWeight"}) {
+        if (casts || name == std::string_view("RayDirWS")) drawn.outputs.push_back(*findOutput(name));
+    }
+
+    WorkerOptions options;
+    options.mesaCacheFolder = folders.cache / "mesa";
+    WorkerPool pool(options);
+    ShaderCompiler compiler(folders.cache / "spirv");
+    const std::string backends[] = {backend};
+    const ExecuteSteps steps = makeSteps(pool, compiler, folders.shaders, backends);
+    const bool doubles = usesDoubles(backend);
+    const PreparedCase prepared = steps.prepare(drawn, !doubles, doubles);
+    const JobReport report = steps.run(backend, 0, doubles ? *prepared.doubleJob : *prepared.floatJob,
+                                       std::chrono::duration<double>(drawn.timeoutSeconds));
+    if (report.outcome != JobOutcome::kDone) throw EnvironmentError(fmt::format("{}: {}", backend, report.text));
+
+    std::vector<Panel> panels;
+    if (prepared.data->gbuffer().planes.contains(GBufferChannel::kColor)) {
+        panels.push_back(encodePanel(prepared.data->gbuffer().plane(GBufferChannel::kColor)));
+        panels.back().name = "scene";
+    }
+    for (const Plane& plane : steps.readPlanes(prepared.data->testCase(), report.result)) {
+        panels.push_back(encodePanel(plane));
+    }
+    constexpr int kColumns = 3;
+    constexpr int kPanelWidth = 320;
+    writePicture(file, panels, kColumns, kPanelWidth);
+    std::vector<std::string> names;
+    for (const Panel& panel : panels)
+        names.push_back(panel.name);
+    return names;
+}
+
+} // namespace crossray
