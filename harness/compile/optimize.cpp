@@ -1,6 +1,7 @@
 #include "harness/compile/optimize.h"
 
 #include "harness/base/error.h"
+#include "harness/compile/flatten.h"
 #include "harness/compile/spirv_module.h"
 
 #include <fmt/format.h>
@@ -77,21 +78,23 @@ std::vector<uint32_t> specialize(const std::vector<uint32_t>& spirv, const std::
     setLocalSize(frozen, findLocalSize(frozen));
     if (!optimize) return frozen;
 
-    spvtools::Optimizer optimizer(kEnvironment);
-    // The first round inlines and propagates the variant's constants; once its dead branches are gone, a shorter second
-    // round hoists out of loops and folds what the first could not.
-    optimizer.RegisterPerformancePasses();
-    optimizer.RegisterPass(spvtools::CreateLoopInvariantCodeMotionPass());
-    optimizer.RegisterPass(spvtools::CreateCCPPass());
-    optimizer.RegisterPass(spvtools::CreateDeadBranchElimPass());
-    optimizer.RegisterPass(spvtools::CreateRedundancyEliminationPass());
-    optimizer.RegisterPass(spvtools::CreateSimplificationPass());
-    optimizer.RegisterPass(spvtools::CreateAggressiveDCEPass());
-    optimizer.RegisterPass(spvtools::CreateCFGCleanupPass());
-    optimizer.RegisterPass(spvtools::CreateBlockMergePass());
-    optimizer.RegisterPass(spvtools::CreateEliminateDeadConstantPass());
-    optimizer.RegisterPass(spvtools::CreateCompactIdsPass());
-    return allowContraction(runPasses(optimizer, forbidContraction(frozen)));
+    // The first round inlines and propagates the variant's constants; with its dead branches gone and the small ones
+    // flattened, a shorter second round hoists out of loops and folds what the first could not.
+    spvtools::Optimizer first(kEnvironment);
+    first.RegisterPerformancePasses();
+    spvtools::Optimizer second(kEnvironment);
+    second.RegisterPass(spvtools::CreateLoopInvariantCodeMotionPass());
+    second.RegisterPass(spvtools::CreateCCPPass());
+    second.RegisterPass(spvtools::CreateDeadBranchElimPass());
+    second.RegisterPass(spvtools::CreateRedundancyEliminationPass());
+    second.RegisterPass(spvtools::CreateSimplificationPass());
+    second.RegisterPass(spvtools::CreateAggressiveDCEPass());
+    second.RegisterPass(spvtools::CreateCFGCleanupPass());
+    second.RegisterPass(spvtools::CreateBlockMergePass());
+    second.RegisterPass(spvtools::CreateEliminateDeadConstantPass());
+    second.RegisterPass(spvtools::CreateCompactIdsPass());
+    const std::vector<uint32_t> straight = flattenBranches(runPasses(first, forbidContraction(frozen)));
+    return allowContraction(runPasses(second, straight));
 }
 
 std::vector<uint32_t> stripDebugInfo(const std::vector<uint32_t>& spirv)

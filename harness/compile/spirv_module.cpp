@@ -90,6 +90,14 @@ double decodeConstant(SpecializationType type, std::span<const uint32_t> words)
 
 } // namespace
 
+void forEachSpirvInstruction(const std::vector<uint32_t>& spirv,
+                             const std::function<void(uint32_t opcode, std::span<const uint32_t> operands)>& visit)
+{
+    forEachInstruction(spirv, [&visit](spv::Op op, std::span<const uint32_t> operands) {
+        visit(static_cast<uint32_t>(op), operands);
+    });
+}
+
 std::vector<SpecializationConstant> findSpecializationConstants(const std::vector<uint32_t>& spirv)
 {
     std::map<uint32_t, std::string> names;

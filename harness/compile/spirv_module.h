@@ -3,10 +3,16 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace crossray {
+
+// Calls visit(opcode, operands) for each instruction. Throws ShaderError on words that are no module.
+void forEachSpirvInstruction(const std::vector<uint32_t>& spirv,
+                             const std::function<void(uint32_t opcode, std::span<const uint32_t> operands)>& visit);
 
 enum class SpecializationType { kBool, kInt, kUint, kFloat, kDouble };
 
