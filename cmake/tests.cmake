@@ -47,6 +47,8 @@ foreach(precision 32 64)
   target_compile_definitions(test_shader${precision} PRIVATE CROSSRAY_GLSL_PRECISION=${precision})
 endforeach()
 target_compile_options(test_shader32 PRIVATE -fsingle-precision-constant)
+# And as GLSL.
+crossray_test_program(test_shader_glsl SOURCES tests/shader/glsl/library_test.cpp USES crossray_compile)
 
 # The binary from outside.
 file(GLOB cli_test_sources CONFIGURE_DEPENDS tests/cli/*.cpp)

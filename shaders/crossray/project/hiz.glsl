@@ -1,5 +1,6 @@
 // Screen-space ray tracing by a depth pyramid ("HiZ"): skip what the ray cannot meet in large cells, look closer where
-// it may. Hooks: those of project/depth_patch.glsl, and
+// it may.
+// Hooks: those of project/depth_patch.glsl, and
 //        int depthPyramidLevelCount()      levels of the pyramid, at least 1
 //        void recordHizStep(HizStep step)  called once an iteration; a release build leaves it empty
 // Source: Uludag 2014, "Hi-Z Screen-Space Cone-Traced Reflections", with the parameters of Unity HDRP 2018 (minimum and
