@@ -80,7 +80,8 @@ RC_GTEST_PROP(ShaderDepthPatch, IsExactOnPlanes, ())
     std::vector<vec2> texels;
     for (int y = 0; y < size.y; ++y) {
         for (int x = 0; x < size.x; ++x) {
-            texels.push_back(vec2(linearDepthFromAffine(view, affineAt(vec2(ivec2(x, y)) + vec2(Real(0.5))))));
+            texels.push_back(
+                vec2(linearDepthFromAffine(view.orthographic, affineAt(vec2(ivec2(x, y)) + vec2(Real(0.5))))));
         }
     }
     buildPyramid(size, texels);
@@ -88,7 +89,8 @@ RC_GTEST_PROP(ShaderDepthPatch, IsExactOnPlanes, ())
     const ivec2 cells = depthPyramidSize(level);
     RC_PRE(cells.x > 2 && cells.y > 2); // two cells cannot tell a steep plane from an edge
     const ivec2 cell(*rc::gen::inRange(0, cells.x), *rc::gen::inRange(0, cells.y));
-    const DepthPatch patch = fitDepthPatch(view, cell, level, fetchDepthPyramid(cell, level).x);
+    const DepthPatch patch =
+        fitDepthPatch(makeScreenFrame(view), cell, level, fetchDepthPyramid(cell, level).x, vec2(0));
     const vec2 probe(drawReal(0, static_cast<Real>(size.x)), drawReal(0, static_cast<Real>(size.y)));
     RC_ASSERT(std::fabs(patchAffineDepth(patch, probe) - affineAt(probe)) < 60 * kUlps * 50);
     RC_ASSERT(gBadReads == 0);

@@ -255,8 +255,9 @@ RC_GTEST_PROP(ShaderHiz, ClaimsNothingFarFromTheDepth, ())
             far = std::max(far, depths.y);
         }
     }
-    const Real nearAffine = affineDepthFromLinear(view, near), farAffine = affineDepthFromLinear(view, far);
-    const Real affine = affineDepthFromLinear(view, r.linearDepth);
+    const Real nearAffine = affineDepthFromLinear(view.orthographic, near),
+               farAffine = affineDepthFromLinear(view.orthographic, far);
+    const Real affine = affineDepthFromLinear(view.orthographic, r.linearDepth);
     const Real slack = (nearAffine - farAffine) * 2 + Real(1e-4) * std::fabs(nearAffine);
     RC_ASSERT(affine <= nearAffine + slack);
     RC_ASSERT(affine >= farAffine - slack || r.linearDepth <= far + settings.depthBias + Real(1e-3));

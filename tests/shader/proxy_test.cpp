@@ -52,7 +52,7 @@ RC_GTEST_PROP(ShaderProxy, FromOutsideTheFarFaceToo, ())
     const vec3 extents(drawReal(Real(0.5), 4), drawReal(Real(0.5), 4), drawReal(Real(0.5), 4));
     const vec3 inside = drawPoint<vec3>(Real(0.99)) * extents;
     const vec3 dir = drawUnitVector<vec3>();
-    const vec3 origin = inside - dir * 20;
+    const vec3 origin = inside - dir * Real(20);
     const ProxyHit far = projectProxyBox(origin, dir, vec3(0), kUpright, extents);
     const ProxyHit near = projectProxyBox(inside, dir, vec3(0), kUpright, extents);
     RC_ASSERT(far.hit && near.hit);

@@ -135,7 +135,7 @@ TEST(ShaderRefraction, DegenerateInputIsAnswered)
         EXPECT_EQ(computeRefraction(model, vec3(kNaN, 0, 0), n, v, Real(1.5), 1).status, kHitReasonDegenerateRay);
         // A normal of another length is the same normal.
         RefractionExit a = computeRefraction(model, p, n, v, Real(1.5), 1);
-        RefractionExit b = computeRefraction(model, p, n * 7, v * Real(0.1), Real(1.5), 1);
+        RefractionExit b = computeRefraction(model, p, n * Real(7), v * Real(0.1), Real(1.5), 1);
         EXPECT_NEAR(length(a.positionWS - b.positionWS), 0, 4 * kUlps);
         // Facing away by a normal map: as at grazing, and continuous with it.
         RefractionExit away = computeRefraction(model, p, vec3(0, -1, 0) + Real(0.2) * v, v, Real(1.5), 1);

@@ -14,10 +14,38 @@ const float kFarAway = 65504.0;
 const float kShortestVector = 1e-30;
 const float kLongestVector = 1e30;
 
+// yes where the condition holds, else no. Both are computed, and no branch comes of it: drivers' compilers slow down
+// with the number of basic blocks, and `condition ? f() : g()`, `a() && b()` and early returns are blocks.
+float choose(bool condition, float yes, float no)
+{
+    return condition ? yes : no;
+}
+
+int choose(bool condition, int yes, int no)
+{
+    return condition ? yes : no;
+}
+
+vec2 choose(bool condition, vec2 yes, vec2 no)
+{
+    return condition ? yes : no;
+}
+
+vec3 choose(bool condition, vec3 yes, vec3 no)
+{
+    return condition ? yes : no;
+}
+
+ivec2 choose(bool condition, ivec2 yes, ivec2 no)
+{
+    return condition ? yes : no;
+}
+
 // x clamped to [0,1]; a NaN gives 0.
 float saturate(float x)
 {
-    return x > 0.0 ? min(x, 1.0) : 0.0;
+    float atMostOne = min(x, 1.0);
+    return x > 0.0 ? atMostOne : 0.0;
 }
 
 vec2 saturate(vec2 v)
@@ -38,17 +66,17 @@ bool isFinite(float x)
 
 bool isFinite(vec2 v)
 {
-    return isFinite(v.x) && isFinite(v.y);
+    return all(lessThan(abs(v), vec2(1e37)));
 }
 
 bool isFinite(vec3 v)
 {
-    return isFinite(v.x) && isFinite(v.y) && isFinite(v.z);
+    return all(lessThan(abs(v), vec3(1e37)));
 }
 
 bool isFinite(vec4 v)
 {
-    return isFinite(v.xyz) && isFinite(v.w);
+    return all(lessThan(abs(v), vec4(1e37)));
 }
 
 // x where it is finite, else the fallback.
@@ -67,31 +95,34 @@ float sumOfMagnitudes(vec3 v)
 bool hasDirection(vec3 v)
 {
     float size = sumOfMagnitudes(v);
-    return size > kShortestVector && size < kLongestVector;
+    bool isLongEnough = size > kShortestVector;
+    bool isShortEnough = size < kLongestVector;
+    return isLongEnough && isShortEnough;
 }
 
 // v scaled to length 1. The fallback (unit, or whatever the caller wants to see) answers for zero, NaN, infinite, and
 // vectors outside 1e-30 to 1e30. Lengths whose squares leave the range of a float (1e-25, 1e25) are no problem.
 vec3 safeNormalize(vec3 v, vec3 fallback)
 {
-    float size = sumOfMagnitudes(v);
-    bool usable = size > kShortestVector && size < kLongestVector;
-    vec3 scaled = v / (usable ? size : 1.0);
-    return usable ? scaled * inversesqrt(dot(scaled, scaled)) : fallback;
+    bool usable = hasDirection(v);
+    vec3 scaled = v / choose(usable, sumOfMagnitudes(v), 1.0);
+    return choose(usable, scaled * inversesqrt(dot(scaled, scaled)), fallback);
 }
 
 // a / b, and the fallback where that is no finite number (b = 0 among others).
 float safeDivide(float a, float b, float fallback)
 {
-    float size = abs(b);
-    float quotient = a / (size > 0.0 ? b : 1.0);
-    return size > 0.0 && isFinite(quotient) ? quotient : fallback;
+    bool isDivisor = abs(b) > 0.0;
+    float quotient = a / choose(isDivisor, b, 1.0);
+    bool isNumber = isFinite(quotient);
+    return isDivisor && isNumber ? quotient : fallback;
 }
 
-// x, moved away from 0 by keeping at least `smallest` (> 0) of magnitude; -0 and +0 become +smallest.
+// x, moved away from 0 by keeping at least `smallest` (> 0) of magnitude; -0 and +0 become +smallest, NaN too.
 float awayFromZero(float x, float smallest)
 {
-    return abs(x) >= smallest ? x : (x < 0.0 ? -smallest : smallest);
+    float sided = choose(x < 0.0, -smallest, smallest);
+    return abs(x) >= smallest ? x : sided;
 }
 
 float minComponent(vec3 v)

@@ -1,13 +1,13 @@
 // Direction of a ray on screen, as the debug mode RayDirNDC shows it.
-// Hooks: none. Source: the projection's derivative along the ray, at its origin; no second point is projected, so a ray that
-// crosses the eye's plane needs no clipping.
+// Hooks: none. Source: the projection's derivative along the ray, at its origin; no second point is projected, so a ray
+// that crosses the eye's plane needs no clipping.
 #ifndef CROSSRAY_CORE_RAY_NDC_GLSL
 #define CROSSRAY_CORE_RAY_NDC_GLSL
 
 #include "crossray/core/view.glsl"
 
-// xy: unit direction in NDC (y up). z: change of 1/linearDepth (1/m) for a unit of way in NDC. A ray without length on screen
-// (straight at the eye or away from it) and an origin that is not in front of the camera give 0.
+// xy: unit direction in NDC (y up). z: change of 1/linearDepth (1/m) for a unit of way in NDC. A ray without length on
+// screen (straight at the eye or away from it) and an origin that is not in front of the camera give 0.
 vec3 computeRayDirNDC(View view, vec3 originWS, vec3 dirWS)
 {
     vec3 originVS = positionVSFromWS(view, originWS);

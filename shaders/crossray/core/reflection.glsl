@@ -5,9 +5,9 @@
 
 #include "crossray/core/math.glsl"
 
-// Unit direction of the mirror ray about a normal; both inputs may have any length above 0, viewDirWS points to the eye. A
-// normal that faces away from the eye (normal maps) reflects as the grazing one between the two would, so that the ray never
-// enters the surface as seen: straight on. An input without direction gives the zero vector.
+// Unit direction of the mirror ray about a normal; both inputs may have any length above 0, viewDirWS points to the
+// eye. A normal that faces away from the eye (normal maps) reflects as the grazing one between the two would, so that
+// the ray never enters the surface as seen: straight on. An input without direction gives the zero vector.
 vec3 computeReflectionDirection(vec3 normalWS, vec3 viewDirWS)
 {
     vec3 n = safeNormalize(normalWS, vec3(0.0));

@@ -32,24 +32,26 @@ struct ScreenPosition {
 // True for the depth-buffer value of "no surface": what the buffer is cleared to, beyond it, or NaN.
 bool isClearedDepth(View view, float deviceDepth)
 {
-    bool surface = view.reversedDepth ? deviceDepth > 0.0 : deviceDepth < 1.0;
-    return surface ? false : true;
+    float fromCleared = choose(view.reversedDepth, deviceDepth, 1.0 - deviceDepth);
+    bool isSurface = fromCleared > 0.0;
+    return isSurface ? false : true;
 }
 
 // Metres along the view axis, in (0, farDistance]. Cleared, NaN and impossible values give farDistance.
 float linearDepthFromDevice(View view, float deviceDepth)
 {
-    float fromPerspective = safeDivide(view.depthB, deviceDepth - view.depthA, view.farDistance);
-    float fromOrthographic = safeDivide(deviceDepth - view.depthA, view.depthB, view.farDistance);
-    float linearDepth = view.orthographic ? fromOrthographic : fromPerspective;
-    return linearDepth > 0.0 ? min(linearDepth, view.farDistance) : view.farDistance;
+    float shifted = deviceDepth - view.depthA;
+    float linearDepth = safeDivide(choose(view.orthographic, shifted, view.depthB),
+                                   choose(view.orthographic, view.depthB, shifted), view.farDistance);
+    float limited = min(linearDepth, view.farDistance);
+    return linearDepth > 0.0 ? limited : view.farDistance;
 }
 
 // The stored value for a depth in metres; depths of 0 and less (perspective) give the near plane's.
 float deviceDepthFromLinear(View view, float linearDepth)
 {
-    float inverse = 1.0 / (linearDepth > 0.0 ? linearDepth : view.nearDistance);
-    return view.depthA + view.depthB * (view.orthographic ? linearDepth : inverse);
+    float inverse = 1.0 / choose(linearDepth > 0.0, linearDepth, view.nearDistance);
+    return view.depthA + view.depthB * choose(view.orthographic, linearDepth, inverse);
 }
 
 vec2 positionNDCFromSS(View view, vec2 positionSS)
@@ -60,7 +62,7 @@ vec2 positionNDCFromSS(View view, vec2 positionSS)
 
 vec3 positionVSFromSS(View view, vec2 positionSS, float linearDepth)
 {
-    vec2 extent = view.slope * (view.orthographic ? 1.0 : linearDepth);
+    vec2 extent = view.slope * choose(view.orthographic, 1.0, linearDepth);
     return vec3(positionNDCFromSS(view, positionSS) * extent, -linearDepth);
 }
 
@@ -94,10 +96,12 @@ vec2 screenScale(View view)
 ScreenPosition projectVSToSS(View view, vec3 positionVS)
 {
     float linearDepth = -positionVS.z;
-    float divisor = view.orthographic ? 1.0 : (linearDepth > 0.0 ? linearDepth : 1.0);
+    bool isAhead = linearDepth > 0.0;
+    float divisor = choose(view.orthographic || !isAhead, 1.0, linearDepth);
     vec2 positionSS = 0.5 * view.imageSize + screenScale(view) * positionVS.xy / divisor;
-    bool inFront = linearDepth > 0.0 && isFinite(positionSS);
-    return ScreenPosition(inFront ? positionSS : vec2(0.0), linearDepth, inFront);
+    bool isPlaced = isFinite(positionSS);
+    bool inFront = isAhead && isPlaced;
+    return ScreenPosition(choose(inFront, positionSS, vec2(0.0)), linearDepth, inFront);
 }
 
 ScreenPosition projectWSToSS(View view, vec3 positionWS)
@@ -108,8 +112,9 @@ ScreenPosition projectWSToSS(View view, vec3 positionWS)
 // Inside the image, borders included.
 bool isOnScreen(View view, vec2 positionSS)
 {
-    return positionSS.x >= 0.0 && positionSS.y >= 0.0 && positionSS.x <= view.imageSize.x &&
-           positionSS.y <= view.imageSize.y;
+    bool isPastStart = all(greaterThanEqual(positionSS, vec2(0.0)));
+    bool isBeforeEnd = all(lessThanEqual(positionSS, view.imageSize));
+    return isPastStart && isBeforeEnd;
 }
 
 // Unit vector from a surface point towards the eye. At the eye itself, and in orthographic views, against the view's
@@ -118,7 +123,7 @@ vec3 viewDirectionWS(View view, vec3 positionWS)
 {
     vec3 backwardWS = safeNormalize(view.worldFromView[2].xyz, vec3(0.0, 0.0, 1.0));
     vec3 towardsEyeWS = safeNormalize(view.worldFromView[3].xyz - positionWS, backwardWS);
-    return view.orthographic ? backwardWS : towardsEyeWS;
+    return choose(view.orthographic, backwardWS, towardsEyeWS);
 }
 
 #endif

@@ -28,92 +28,115 @@ struct DepthPatch {
 
 // One step from a cell to a neighbour along an axis.
 struct DepthDifference {
-    float slope;  // affine depth a pixel, in the axis's direction
+    float slope;  // affine depth a pixel, in the axis's direction; 0 where it is not known
     bool isKnown; // both cells lie in the image and hold a surface
 };
 
 CellSpan computeCellSpan(int cell, int level, int cells, int pixels)
 {
-    return CellSpan(cell << level, cell >= cells - 1 ? pixels : (cell + 1) << level);
+    return CellSpan(cell << level, choose(cell >= cells - 1, pixels, (cell + 1) << level));
 }
 
 bool isSkyDepth(float nearestLinearDepth)
 {
-    return nearestLinearDepth < 0.5 * kSkyLinearDepth ? false : true;
+    bool isSurface = nearestLinearDepth < 0.5 * kSkyLinearDepth;
+    return isSurface ? false : true;
 }
 
-// Nearest depth of the cell `offset` cells away along an axis (0 x, 1 y); sky outside the image.
-float fetchNearestAlong(ivec2 cell, int axis, int offset, int level, ivec2 cells)
+// Nearest depth of a cell; sky outside the image.
+float fetchNearest(ivec2 cell, int level, ivec2 cells)
 {
-    ivec2 other = cell + (axis == 0 ? ivec2(offset, 0) : ivec2(0, offset));
-    bool isInside = other.x >= 0 && other.y >= 0 && other.x < cells.x && other.y < cells.y;
-    return isInside ? fetchDepthPyramid(other, level).x : kSkyLinearDepth;
+    ivec2 inside = clamp(cell, ivec2(0), cells - ivec2(1));
+    float nearest = fetchDepthPyramid(inside, level).x;
+    return choose(all(equal(cell, inside)), nearest, kSkyLinearDepth);
 }
 
-// From the cell at `first` along the axis to the one after it. The nearest depth of a sloping cell lies at its border
-// in the direction in which it comes nearer: so far apart are the two depths.
-DepthDifference computeDepthDifference(View view, float firstDepth, float secondDepth, CellSpan first, CellSpan second)
+// From one cell to the next along an axis. The nearest depth of a sloping cell lies at its border in the direction in
+// which it comes nearer: so far apart are the two depths.
+DepthDifference computeDepthDifference(bool orthographic, float firstDepth, float secondDepth, CellSpan first,
+                                       CellSpan second)
 {
-    bool isKnown = !isSkyDepth(firstDepth) && !isSkyDepth(secondDepth);
-    float rise = affineDepthFromLinear(view, secondDepth) - affineDepthFromLinear(view, firstDepth);
-    int pixels = rise > 0.0 ? second.end - first.end : second.begin - first.begin;
-    return DepthDifference(isKnown ? rise / float(max(pixels, 1)) : 0.0, isKnown);
+    bool isEdge = isSkyDepth(firstDepth) || isSkyDepth(secondDepth);
+    float rise = affineDepthFromLinear(orthographic, secondDepth) - affineDepthFromLinear(orthographic, firstDepth);
+    int pixels = choose(rise > 0.0, second.end - first.end, second.begin - first.begin);
+    float slope = rise / float(max(pixels, 1));
+    return DepthDifference(choose(isEdge, 0.0, slope), !isEdge);
 }
 
-// Slopes a pixel that differ by less than this are one surface that bends by less than about 45 degrees a pixel.
-float computePatchBend(View view, float affineDepth)
-{
-    float footprint = 2.0 * view.slope.y / view.imageSize.y; // of a pixel: metres, or metres a metre of distance
-    return footprint * (view.orthographic ? 1.0 : affineDepth);
-}
-
+// Two slopes of one surface: they differ by less than `bend`, or by less than the flatter one, with the same sign.
 bool agree(float a, float b, float bend)
 {
-    return abs(a - b) <= max(bend, a * b > 0.0 ? min(abs(a), abs(b)) : 0.0);
+    float flatter = choose(a * b > 0.0, min(abs(a), abs(b)), 0.0);
+    return abs(a - b) <= max(bend, flatter);
 }
 
-// Slope of the cell along one axis: the mean of both sides where they agree; else the flatter side, if it is no edge:
-// flat enough, or going on beyond the neighbour. No side: 0.
-float fitSlope(View view, ivec2 cell, int axis, int level, float depth, float bend)
+// Slope of a cell along one axis (0 x, 1 y): the mean of both sides where they agree. Else the flatter side, if it is
+// no edge: flat enough, or going on beyond the neighbour. No side: 0. A `favour` other than 0 takes, where the sides
+// part, the one that falls away in its direction.
+float fitSlope(ScreenFrame frame, ivec2 cell, int axis, int level, float depth, float bend, float favour)
 {
     ivec2 cells = depthPyramidSize(level);
-    ivec2 pixels = ivec2(view.imageSize);
-    int place = axis == 0 ? cell.x : cell.y;
-    int count = axis == 0 ? cells.x : cells.y;
-    int side = axis == 0 ? pixels.x : pixels.y;
-    float depthBefore = fetchNearestAlong(cell, axis, -1, level, cells);
-    float depthAfter = fetchNearestAlong(cell, axis, 1, level, cells);
+    bool isX = axis == 0;
+    ivec2 along = choose(isX, ivec2(1, 0), ivec2(0, 1));
+    int place = choose(isX, cell.x, cell.y);
+    int count = choose(isX, cells.x, cells.y);
+    int side = choose(isX, frame.imageSize.x, frame.imageSize.y);
     CellSpan here = computeCellSpan(place, level, count, side);
     CellSpan spanBefore = computeCellSpan(place - 1, level, count, side);
     CellSpan spanAfter = computeCellSpan(place + 1, level, count, side);
-    DepthDifference before = computeDepthDifference(view, depthBefore, depth, spanBefore, here);
-    DepthDifference after = computeDepthDifference(view, depth, depthAfter, here, spanAfter);
-    if (before.isKnown && after.isKnown && agree(before.slope, after.slope, bend)) {
-        return 0.5 * (before.slope + after.slope);
-    }
-    if (!before.isKnown && !after.isKnown) return 0.0;
+    float depthBefore = fetchNearest(cell - along, level, cells);
+    float depthAfter = fetchNearest(cell + along, level, cells);
+    DepthDifference before = computeDepthDifference(frame.orthographic, depthBefore, depth, spanBefore, here);
+    DepthDifference after = computeDepthDifference(frame.orthographic, depth, depthAfter, here, spanAfter);
+    bool isBetween = before.isKnown && after.isKnown;
+    bool isParallel = agree(before.slope, after.slope, bend);
+    bool isSmooth = isBetween && isParallel;
 
-    bool takeBefore = before.isKnown && (!after.isKnown || abs(before.slope) < abs(after.slope));
-    float slope = takeBefore ? before.slope : after.slope;
-    if (abs(slope) <= 4.0 * bend) return slope;
-    int direction = takeBefore ? -1 : 1;
-    float depthBeyond = fetchNearestAlong(cell, axis, 2 * direction, level, cells);
-    CellSpan spanBeyond = computeCellSpan(place + 2 * direction, level, count, side);
-    DepthDifference beyond = computeDepthDifference(view, depthBeyond, depthBefore, spanBeyond, spanBefore);
-    if (!takeBefore) beyond = computeDepthDifference(view, depthAfter, depthBeyond, spanAfter, spanBeyond);
-    return beyond.isKnown && agree(beyond.slope, slope, bend) ? slope : 0.0;
+    bool isFavoured = abs(favour) > 0.0;
+    bool isFlatter = abs(before.slope) < abs(after.slope);
+    bool isFalling = before.slope * favour < after.slope * favour;
+    bool isBetter = isFavoured ? isFalling : isFlatter;
+    bool isOnly = !after.isKnown;
+    bool isTaken = isOnly || isBetter;
+    bool takeBefore = before.isKnown && isTaken;
+    float slope = choose(takeBefore, before.slope, after.slope);
+    bool isFlat = abs(slope) <= 4.0 * bend;
+    bool isCertain = isSmooth || isFlat;
+    bool isSure = isCertain || isFavoured;
+    if (!isSure) {
+        int beyondPlace = choose(takeBefore, -2, 2);
+        float depthBeyond = fetchNearest(cell + along * beyondPlace, level, cells);
+        CellSpan spanBeyond = computeCellSpan(place + beyondPlace, level, count, side);
+        float first = choose(takeBefore, depthBeyond, depthAfter);
+        float second = choose(takeBefore, depthBefore, depthBeyond);
+        CellSpan spanFirst = CellSpan(choose(takeBefore, spanBeyond.begin, spanAfter.begin),
+                                      choose(takeBefore, spanBeyond.end, spanAfter.end));
+        CellSpan spanSecond = CellSpan(choose(takeBefore, spanBefore.begin, spanBeyond.begin),
+                                       choose(takeBefore, spanBefore.end, spanBeyond.end));
+        DepthDifference beyond = computeDepthDifference(frame.orthographic, first, second, spanFirst, spanSecond);
+        bool isStraight = agree(beyond.slope, slope, bend);
+        bool goesOn = beyond.isKnown && isStraight;
+        slope = choose(goesOn, slope, 0.0);
+    }
+    return choose(isSmooth, 0.5 * (before.slope + after.slope), slope);
 }
 
-// The plane of a cell whose nearest depth is given; it must hold a surface. 4 to 6 reads.
-DepthPatch fitDepthPatch(View view, ivec2 cell, int level, float nearestLinearDepth)
+// The plane of a cell whose nearest depth is given; it must hold a surface. 4 to 6 reads. `favourSS`: a direction in
+// which the plane falls away where its sides leave the choice; 0 for the flatter side.
+DepthPatch fitDepthPatch(ScreenFrame frame, ivec2 cell, int level, float nearestLinearDepth, vec2 favourSS)
 {
     ivec2 cells = depthPyramidSize(level);
-    CellSpan x = computeCellSpan(cell.x, level, cells.x, int(view.imageSize.x));
-    CellSpan y = computeCellSpan(cell.y, level, cells.y, int(view.imageSize.y));
-    float nearest = affineDepthFromLinear(view, nearestLinearDepth);
-    float bend = computePatchBend(view, nearest);
-    vec2 gradient = vec2(fitSlope(view, cell, 0, level, nearestLinearDepth, bend),
-                         fitSlope(view, cell, 1, level, nearestLinearDepth, bend));
+    CellSpan x = computeCellSpan(cell.x, level, cells.x, frame.imageSize.x);
+    CellSpan y = computeCellSpan(cell.y, level, cells.y, frame.imageSize.y);
+    float nearest = affineDepthFromLinear(frame.orthographic, nearestLinearDepth);
+    // Slopes that differ by less are one surface that bends by less than about 45 degrees a pixel.
+    float bend = frame.footprint * choose(frame.orthographic, 1.0, nearest);
+    vec2 gradient = vec2(0.0);
+    for (int axis = 0; axis < 2; ++axis) { // a loop, and not two calls: half the code for the driver to compile
+        float favour = choose(axis == 0, favourSS.x, favourSS.y);
+        float slope = fitSlope(frame, cell, axis, level, nearestLinearDepth, bend, favour);
+        gradient = choose(axis == 0, vec2(slope, 0.0), vec2(gradient.x, slope));
+    }
     // From the nearest pixel's centre, half a cell less half a pixel away, to the cell's.
     vec2 toCorner = 0.5 * vec2(float(x.end - x.begin - 1), float(y.end - y.begin - 1));
     vec2 centerSS = 0.5 * vec2(float(x.begin + x.end), float(y.begin + y.end));

@@ -23,7 +23,7 @@ const float kSkyLinearDepth = 1e30;
 vec2 makeDepthPyramidTexel(View view, float deviceDepth)
 {
     float linearDepth = linearDepthFromDevice(view, deviceDepth);
-    return isClearedDepth(view, deviceDepth) ? vec2(kSkyLinearDepth, 0.0) : vec2(linearDepth);
+    return choose(isClearedDepth(view, deviceDepth), vec2(kSkyLinearDepth, 0.0), vec2(linearDepth));
 }
 
 // Cells of a level; sizes below 1 count as 1.

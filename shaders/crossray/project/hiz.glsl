@@ -63,6 +63,7 @@ void recordHizStep(HizStep step);
 // Ray and surface within this share of their depth are one at the start: what moving a position to world space and back
 // costs.
 const float kHizStartTolerance = 0.000244140625; // 2^-12
+const int kHizRuns = -1;                         // in place of a reason, while the march goes on
 
 struct HizState {
     float s;     // place on the ray
@@ -79,9 +80,10 @@ struct HizCell {
     ivec2 cell;
     ivec2 begin; // pixels [begin, end)
     ivec2 end;
-    vec2 depths; // nearest, farthest
-    float leave; // s where the ray leaves it, at most 1
-    bool leavesByX;
+    vec2 depths;      // nearest, farthest
+    float leave;      // s where the ray leaves it, at most 1
+    ivec2 leavePixel; // the first pixel after it
+    bool leavesImage;
     bool isLast;      // the ray ends in it
     float rayNearest; // metres, of the part inside
     float rayFarthest;
@@ -90,8 +92,8 @@ struct HizCell {
 // What a cell says about the ray.
 struct HizTest {
     int kind;          // kIntersectionNone: skipped; kIntersectionCell: tested and passed, or to be looked at closer
-    float s;           // kIntersectionDepth: of the hit
-    float linearDepth; // of the hit, metres
+    float s;           // of the hit, or from where to look closer
+    float affineDepth; // of the hit
     bool inFront;      // when the ray leaves the cell
     bool attached;
     bool isHidden;
@@ -101,190 +103,220 @@ HizSettings sanitizeHizSettings(HizSettings settings)
 {
     int last = max(depthPyramidLevelCount(), 1) - 1;
     int minLevel = clamp(settings.minLevel, 0, last);
-    float bias = settings.depthBias > 0.0 ? min(settings.depthBias, 1e30) : 0.0;
+    float bias = choose(settings.depthBias > 0.0, min(settings.depthBias, 1e30), 0.0);
     return HizSettings(minLevel, clamp(settings.maxLevel, minLevel, last), max(settings.maxIterations, 0), bias);
 }
 
-HizCell enterHizCell(View view, ScreenRay ray, HizState state)
+// The pixel in which the ray is at s, inside [begin, end) and never before the pixel in which it was: rounding cannot
+// turn it back.
+ivec2 computeHizPixel(ScreenRay ray, ivec2 begin, ivec2 end, ivec2 before, float s)
+{
+    vec2 positionSS = clamp(screenRayPositionSS(ray, s), vec2(begin), vec2(end));
+    ivec2 pixel = clamp(ivec2(floor(positionSS)), begin, end - ivec2(1));
+    return ivec2(choose(ray.deltaSS.x < 0.0, min(pixel.x, before.x), max(pixel.x, before.x)),
+                 choose(ray.deltaSS.y < 0.0, min(pixel.y, before.y), max(pixel.y, before.y)));
+}
+
+HizCell enterHizCell(ScreenFrame frame, ScreenRay ray, HizState state)
 {
     ivec2 cells = depthPyramidSize(state.level);
     ivec2 cell = computeDepthPyramidCell(state.pixel, state.level, cells);
-    CellSpan x = computeCellSpan(cell.x, state.level, cells.x, int(view.imageSize.x));
-    CellSpan y = computeCellSpan(cell.y, state.level, cells.y, int(view.imageSize.y));
-    vec2 delta = vec2(awayFromZero(ray.deltaSS.x, 1e-20), awayFromZero(ray.deltaSS.y, 1e-20));
-    float leaveX = (float(delta.x > 0.0 ? x.end : x.begin) - ray.startSS.x) / delta.x;
-    float leaveY = (float(delta.y > 0.0 ? y.end : y.begin) - ray.startSS.y) / delta.y;
-    float leave = max(min(leaveX, leaveY), state.s);
-    bool isLast = leave < 1.0 ? false : true;
+    CellSpan x = computeCellSpan(cell.x, state.level, cells.x, frame.imageSize.x);
+    CellSpan y = computeCellSpan(cell.y, state.level, cells.y, frame.imageSize.y);
+    ivec2 begin = ivec2(x.begin, y.begin);
+    ivec2 end = ivec2(x.end, y.end);
+    bool runsLeft = ray.deltaSS.x < 0.0;
+    bool runsUp = ray.deltaSS.y < 0.0;
+    vec2 border = vec2(float(choose(runsLeft, begin.x, end.x)), float(choose(runsUp, begin.y, end.y)));
+    vec2 toBorder = (border - ray.startSS) / ray.deltaSS;
+    float leave = max(min(toBorder.x, toBorder.y), state.s);
+    bool goesOn = leave < 1.0;
     leave = min(leave, 1.0);
-    float enterDepth = linearDepthFromAffine(view, screenRayAffineDepth(ray, state.s));
-    float leaveDepth = linearDepthFromAffine(view, screenRayAffineDepth(ray, leave));
-    return HizCell(cell, ivec2(x.begin, y.begin), ivec2(x.end, y.end), fetchDepthPyramid(cell, state.level), leave,
-                   leaveX <= leaveY, isLast, min(enterDepth, leaveDepth), max(enterDepth, leaveDepth));
-}
 
-// The pixel in which the ray is at s, inside the cell and never before the pixel in which it was: rounding cannot turn
-// it back.
-ivec2 computeHizPixel(ScreenRay ray, HizCell cell, ivec2 before, float s)
-{
-    vec2 positionSS = clamp(screenRayPositionSS(ray, s), vec2(cell.begin), vec2(cell.end));
-    ivec2 pixel = clamp(ivec2(floor(positionSS)), cell.begin, cell.end - ivec2(1));
-    return ivec2(ray.deltaSS.x < 0.0 ? min(pixel.x, before.x) : max(pixel.x, before.x),
-                 ray.deltaSS.y < 0.0 ? min(pixel.y, before.y) : max(pixel.y, before.y));
-}
-
-// The first pixel of the next cell: exactly over the border by which the ray leaves.
-ivec2 computeHizExitPixel(ScreenRay ray, HizCell cell, ivec2 before)
-{
-    ivec2 pixel = computeHizPixel(ray, cell, before, cell.leave);
-    int overX = ray.deltaSS.x < 0.0 ? cell.begin.x - 1 : cell.end.x;
-    int overY = ray.deltaSS.y < 0.0 ? cell.begin.y - 1 : cell.end.y;
-    return cell.leavesByX ? ivec2(overX, pixel.y) : ivec2(pixel.x, overY);
-}
-
-// The ray in the cell where it starts: it cannot hit the plane on which it stands. enter and leave: by how much affine
-// depth it is in front of the plane.
-HizTest testHizStart(View view, ScreenRay ray, HizState state, HizCell cell, DepthPatch plane, float enter, float leave)
-{
-    float tolerance = kHizStartTolerance * abs(plane.affineDepth);
-    bool stands = abs(enter) <= tolerance;
-    bool crosses = enter > tolerance && leave < -tolerance && state.level == 0;
-    float s = mix(state.s, cell.leave, saturate(safeDivide(enter, enter - leave, 0.0)));
-    float depth = linearDepthFromAffine(view, patchAffineDepth(plane, screenRayPositionSS(ray, s)));
-    bool inFront = leave >= (stands ? -tolerance : 0.0);
-    return HizTest(crosses ? kIntersectionDepth : kIntersectionCell, s, depth, inFront, stands && leave <= tolerance,
-                   false);
+    // Exactly over the border by which the ray leaves.
+    ivec2 inside = computeHizPixel(ray, begin, end, state.pixel, leave);
+    ivec2 overX = ivec2(choose(runsLeft, begin.x - 1, end.x), inside.y);
+    ivec2 overY = ivec2(inside.x, choose(runsUp, begin.y - 1, end.y));
+    ivec2 leavePixel = choose(toBorder.x <= toBorder.y, overX, overY);
+    bool staysInside = all(equal(leavePixel, clamp(leavePixel, ivec2(0), frame.imageSize - ivec2(1))));
+    float enterDepth = linearDepthFromAffine(frame.orthographic, screenRayAffineDepth(ray, state.s));
+    float leaveDepth = linearDepthFromAffine(frame.orthographic, screenRayAffineDepth(ray, leave));
+    return HizCell(cell, begin, end, fetchDepthPyramid(cell, state.level), leave, leavePixel, goesOn && !staysInside,
+                   !goesOn, min(enterDepth, leaveDepth), max(enterDepth, leaveDepth));
 }
 
 // The ray against the plane of a cell at the minimum level.
-HizTest testHizPlane(View view, ScreenRay ray, HizState state, HizCell cell, float depthBias)
+HizTest testHizPlane(ScreenFrame frame, ScreenRay ray, HizState state, HizCell cell, float depthBias)
 {
-    DepthPatch plane = fitDepthPatch(view, cell.cell, state.level, cell.depths.x);
+    // A ray that starts on an edge is in front of the side that falls away from it.
+    vec2 favourSS = choose(state.isStart, ray.deltaSS, vec2(0.0));
+    DepthPatch plane = fitDepthPatch(frame, cell.cell, state.level, cell.depths.x, favourSS);
     float rayAffine = screenRayAffineDepth(ray, state.s);
     float planeAffine = patchAffineDepth(plane, screenRayPositionSS(ray, state.s));
-    float enter = rayAffine - planeAffine;
-    float rate = ray.deltaAffineDepth - dot(plane.gradient, ray.deltaSS); // of the same along the ray
+    float planeRate = dot(plane.gradient, ray.deltaSS);
+    float rate = ray.deltaAffineDepth - planeRate;
+    float enter = rayAffine - planeAffine; // above 0: in front
     float leave = enter + rate * (cell.leave - state.s);
-    if (state.isStart) return testHizStart(view, ray, state, cell, plane, enter, leave);
 
     float tolerance = kHizStartTolerance * abs(plane.affineDepth);
-    float noise = state.attached ? tolerance : 0.0;
+    float noise = choose(state.attached, tolerance, 0.0);
     bool isBehind = enter < -noise;
     bool goesBehind = leave < -noise;
-    if (!isBehind && !goesBehind) {
-        return HizTest(kIntersectionCell, 0.0, 0.0, true, state.attached && leave <= tolerance, false);
-    }
+    bool sinks = rate < 0.0;
+    bool crosses = goesBehind && !isBehind;
 
-    // Where the ray crosses the plane: in this cell, or at most a cell's length before.
-    float cellPixels = float(max(cell.end.x - cell.begin.x, cell.end.y - cell.begin.y));
-    float cellLength = cellPixels / max(max(abs(ray.deltaSS.x), abs(ray.deltaSS.y)), 1e-20);
+    // Came in behind: did it cross the plane at most a cell's length before, or is it in what the depth bias makes
+    // solid?
+    int cellPixels = max(cell.end.x - cell.begin.x, cell.end.y - cell.begin.y);
     float crossing = state.s - safeDivide(enter, rate, 0.0);
-    bool goesOn = rate < 0.0 && state.s - crossing <= cellLength;
-    if (!isBehind || (state.inFront && goesOn)) {
-        float s = clamp(crossing, isBehind ? 0.0 : state.s, cell.leave);
-        float depth = linearDepthFromAffine(view, patchAffineDepth(plane, screenRayPositionSS(ray, s)));
-        return HizTest(kIntersectionDepth, s, depth, false, false, false);
-    }
-    float rayDepth = linearDepthFromAffine(view, rayAffine);
-    bool isThick = rate < 0.0 && rayDepth - linearDepthFromAffine(view, planeAffine) <= depthBias;
-    if (state.inFront && isThick) return HizTest(kIntersectionDepth, state.s, rayDepth, false, false, false);
-    return HizTest(kIntersectionCell, 0.0, 0.0, leave >= 0.0, false, true);
+    bool isRecent = state.s - crossing <= float(cellPixels) * ray.pixelLength;
+    bool crossed = sinks && isRecent;
+    float behind =
+        linearDepthFromAffine(frame.orthographic, rayAffine) - linearDepthFromAffine(frame.orthographic, planeAffine);
+    bool isThick = behind <= depthBias;
+    bool isSolid = sinks && isThick;
+    bool cameIn = isBehind && state.inFront;
+    bool metBefore = crossed || isSolid;
+    bool meets = cameIn && metBefore;
+
+    // In the cell of its start: it cannot hit the plane on which it stands.
+    bool isOffPlane = enter > tolerance;
+    bool floats = isOffPlane && state.level == 0;
+    bool hitsFromStart = crosses && floats;
+    bool hitsElsewhere = crosses || meets;
+    bool hit = state.isStart ? hitsFromStart : hitsElsewhere;
+
+    bool isCrossing = crosses || crossed;
+    float sCrossing = clamp(crossing, choose(isBehind, 0.0, state.s), cell.leave);
+    float sHit = choose(isCrossing, sCrossing, state.s);
+    float hitAffine = choose(isCrossing, planeAffine + planeRate * (sCrossing - state.s), rayAffine);
+    bool inFront = leave >= -choose(isBehind, 0.0, noise);
+    bool isClose = leave <= tolerance && !isBehind;
+    bool stands = !(state.isStart && isOffPlane);
+    bool keepsClose = isClose && stands;
+    return HizTest(choose(hit, kIntersectionDepth, kIntersectionCell), sHit, hitAffine, inFront,
+                   state.attached && keepsClose, isBehind && !state.isStart);
 }
 
-HizTest testHizCell(View view, ScreenRay ray, HizState state, HizCell cell, HizSettings settings)
+HizTest testHizCell(ScreenFrame frame, ScreenRay ray, HizState state, HizCell cell, HizSettings settings)
 {
     bool isSky = isSkyDepth(cell.depths.x);
-    if (isSky || cell.rayFarthest < cell.depths.x) {
-        bool isWellClear = isSky || cell.rayFarthest * (1.0 + kHizStartTolerance) < cell.depths.x;
-        return HizTest(kIntersectionNone, 0.0, 0.0, true, state.attached && !isWellClear, false);
-    }
-    if (!state.inFront && cell.rayNearest > cell.depths.y + settings.depthBias) {
-        return HizTest(kIntersectionNone, 0.0, 0.0, false, false, !state.isStart);
-    }
-    if (state.level == settings.minLevel) return testHizPlane(view, ray, state, cell, settings.depthBias);
-    return HizTest(kIntersectionCell, 0.0, 0.0, state.inFront, state.attached, false);
-}
+    bool isNearer = cell.rayFarthest < cell.depths.x;
+    bool isClear = isSky || isNearer;
+    bool isWellNearer = cell.rayFarthest * (1.0 + kHizStartTolerance) < cell.depths.x;
+    bool isWellClear = isSky || isWellNearer;
+    bool isDeeper = cell.rayNearest > cell.depths.y + settings.depthBias;
+    bool isPassed = isDeeper && !(state.inFront || isClear);
+    // Before it leaves the image the ray is tested against the last pixel's plane: after it comes no cell that would
+    // see that the ray has crossed it in the pixel's corner.
+    bool leavesUnseen = cell.leavesImage && !isSky;
+    bool isSkipped = isPassed || (isClear && !leavesUnseen);
+    bool isFinest = state.level == settings.minLevel;
 
-// One level finer, from where the ray first is as deep as the cell's nearest surface.
-HizState descendHiz(View view, ScreenRay ray, HizState state, HizCell cell)
-{
-    float nearestAffine = affineDepthFromLinear(view, cell.depths.x);
+    // Looked at closer: from where the ray first is as deep as the cell's nearest surface.
+    float nearestAffine = affineDepthFromLinear(frame.orthographic, cell.depths.x);
     float toNearest = safeDivide(nearestAffine - ray.startAffineDepth, ray.deltaAffineDepth, 0.0);
     bool comesFromFront = state.inFront && ray.deltaAffineDepth < 0.0;
-    float s = comesFromFront ? clamp(toNearest, state.s, cell.leave) : state.s;
-    ivec2 pixel = computeHizPixel(ray, cell, state.pixel, s);
-    return HizState(s, pixel, state.level - 1, state.inFront, state.attached, state.wasHidden, state.isStart);
+    float closer = choose(comesFromFront, clamp(toNearest, state.s, cell.leave), state.s);
+    closer = choose(isClear, cell.leave, closer);
+
+    bool isHidden = isPassed && !state.isStart;
+    bool staysAttached = state.attached && !isWellClear;
+    bool keepsAttached = staysAttached && !isPassed;
+    bool inFront = isClear || (state.inFront && !isSkipped);
+    HizTest test =
+        HizTest(choose(isSkipped, kIntersectionNone, kIntersectionCell), closer, 0.0, inFront, keepsAttached, isHidden);
+    bool isTested = isFinest && !isSkipped;
+    if (isTested) test = testHizPlane(frame, ray, state, cell, settings.depthBias);
+    return test;
 }
 
-// Into the next cell; one level coarser after a skip.
-HizState advanceHiz(ScreenRay ray, HizState state, HizCell cell, HizTest test, int maxLevel)
+// Down a level where the cell needs a closer look; else into the next cell, and up a level after a skip.
+HizState stepHiz(ScreenRay ray, HizState state, HizCell cell, HizTest test, HizSettings settings)
 {
-    int level = test.kind == kIntersectionNone ? min(state.level + 1, maxLevel) : state.level;
-    return HizState(cell.leave, computeHizExitPixel(ray, cell, state.pixel), level, test.inFront, test.attached,
-                    state.wasHidden || test.isHidden, false);
+    bool isSkipped = test.kind == kIntersectionNone;
+    bool isFinest = state.level == settings.minLevel;
+    bool descends = !(isSkipped || isFinest);
+    ivec2 closerPixel = computeHizPixel(ray, cell.begin, cell.end, state.pixel, test.s);
+    int levelAfter = choose(isSkipped, min(state.level + 1, settings.maxLevel), state.level);
+    bool isHidden = test.isHidden && !descends;
+    return HizState(choose(descends, test.s, cell.leave), choose(descends, closerPixel, cell.leavePixel),
+                    choose(descends, state.level - 1, levelAfter), test.inFront, test.attached,
+                    state.wasHidden || isHidden, state.isStart && descends);
 }
 
-HizStep makeHizStep(View view, ScreenRay ray, HizState state, HizCell cell, int kind, int iteration, float depthBias)
+HizStep makeHizStep(ScreenFrame frame, ScreenRay ray, HizState state, HizCell cell, int kind, int iteration,
+                    float depthBias)
 {
-    float rayDepth = linearDepthFromAffine(view, screenRayAffineDepth(ray, state.s));
+    float rayDepth = linearDepthFromAffine(frame.orthographic, screenRayAffineDepth(ray, state.s));
     return HizStep(iteration, state.level, cell.cell, cell.end - cell.begin, screenRayPositionSS(ray, state.s),
                    rayDepth, cell.depths.x, cell.depths.y, cell.depths.x + depthBias, kind);
 }
 
-TraceResult makeHizEnd(View view, ScreenRay ray, HizState state, int reason, int iterations, int maxUsedLevel, int kind)
+// What to report of a march that ended without a hit for `reason`.
+int computeHizReason(int reason, bool inFront, bool wasHidden)
 {
-    int hitClass = kHitClassUnknown;
-    int why = reason;
-    if (reason == kHitReasonDegenerateRay) hitClass = kHitClassNoRaycast;
-    if (reason == kHitReasonSky) {
-        bool sawAll = state.inFront && !state.wasHidden;
-        hitClass = sawAll ? kHitClassMiss : kHitClassUnknown;
-        why = sawAll ? reason : kHitReasonBehindSurface;
-    }
     bool leaves = reason == kHitReasonOffScreen || reason == kHitReasonNearPlane;
-    if (leaves && !state.inFront) why = kHitReasonBehindSurface;
-    float linearDepth = linearDepthFromAffine(view, screenRayAffineDepth(ray, state.s));
-    if (ray.status != kHitReasonNone) linearDepth = 0.0;
-    return TraceResult(hitClass, why, screenRayPositionSS(ray, state.s), linearDepth, iterations, maxUsedLevel, kind);
+    bool endsHidden = leaves && !inFront;
+    bool sawNothing = wasHidden || !inFront;
+    bool missesUnseen = sawNothing && reason == kHitReasonSky;
+    bool isHidden = endsHidden || missesUnseen;
+    return choose(isHidden, kHitReasonBehindSurface, reason);
 }
 
-// Traces from originWS along dirWS (any length). Positions and depths are finite whatever the input.
+int computeHizClass(int reason)
+{
+    int hitClass = choose(reason == kHitReasonSky, kHitClassMiss, kHitClassUnknown);
+    hitClass = choose(reason == kHitReasonDegenerateRay, kHitClassNoRaycast, hitClass);
+    return choose(reason == kHitReasonNone, kHitClassHit, hitClass);
+}
+
+// Traces from originWS along dirWS (any length). Positions and depths are finite whatever the input; a
+// ray that could not start ends at its start.
 TraceResult traceHiz(View view, vec3 originWS, vec3 dirWS, HizSettings userSettings)
 {
     HizSettings settings = sanitizeHizSettings(userSettings);
+    ScreenFrame frame = makeScreenFrame(view);
     ScreenRay ray = makeScreenRay(view, originWS, dirWS);
-    ivec2 lastPixel = ivec2(view.imageSize) - ivec2(1);
-    bool starts = ray.status == kHitReasonNone && isOnScreen(view, ray.startSS);
-    ivec2 startPixel = starts ? min(ivec2(floor(ray.startSS)), lastPixel) : ivec2(0);
+    bool isOnImage = isOnScreen(view, ray.startSS);
+    bool isRay = ray.status == kHitReasonNone;
+    bool starts = isRay && isOnImage;
+    ivec2 startPixel = min(ivec2(floor(choose(starts, ray.startSS, vec2(0.0)))), frame.imageSize - ivec2(1));
     HizState state = HizState(0.0, startPixel, settings.minLevel, true, true, false, true);
-    if (!starts) {
-        int reason = ray.status == kHitReasonNone ? kHitReasonOffScreen : ray.status;
-        return makeHizEnd(view, ray, state, reason, 0, 0, kIntersectionNone);
-    }
+    int limit = choose(starts, settings.maxIterations, 0);
+    int end = choose(isRay, kHitReasonOffScreen, ray.status);
+    end = choose(starts, kHizRuns, end);
 
-    int maxUsedLevel = state.level;
+    int iterations = 0;
+    int maxUsedLevel = choose(starts, settings.minLevel, 0);
     int kind = kIntersectionNone;
-    for (int i = 0; i < settings.maxIterations; ++i) {
-        HizCell cell = enterHizCell(view, ray, state);
-        HizTest test = testHizCell(view, ray, state, cell, settings);
+    float endS = 0.0;
+    float endAffine = ray.startAffineDepth;
+    for (int i = 0; i < limit; ++i) {
+        HizCell cell = enterHizCell(frame, ray, state);
+        HizTest test = testHizCell(frame, ray, state, cell, settings);
+        recordHizStep(makeHizStep(frame, ray, state, cell, test.kind, i, settings.depthBias));
+        bool descends = test.kind == kIntersectionCell && state.level > settings.minLevel;
         maxUsedLevel = max(maxUsedLevel, state.level);
+        iterations = i + 1;
         kind = test.kind;
-        recordHizStep(makeHizStep(view, ray, state, cell, kind, i, settings.depthBias));
-        if (kind == kIntersectionDepth) {
-            vec2 hitSS = screenRayPositionSS(ray, test.s);
-            return TraceResult(kHitClassHit, kHitReasonNone, hitSS, test.linearDepth, i + 1, maxUsedLevel, kind);
-        }
-        if (kind == kIntersectionCell && state.level > settings.minLevel) {
-            state = descendHiz(view, ray, state, cell);
-        } else {
-            state = advanceHiz(ray, state, cell, test, settings.maxLevel);
-            if (cell.isLast) return makeHizEnd(view, ray, state, ray.endReason, i + 1, maxUsedLevel, kind);
-            bool isInside = state.pixel.x >= 0 && state.pixel.y >= 0 && state.pixel.x <= lastPixel.x &&
-                            state.pixel.y <= lastPixel.y;
-            if (!isInside) return makeHizEnd(view, ray, state, kHitReasonOffScreen, i + 1, maxUsedLevel, kind);
-        }
+        state = stepHiz(ray, state, cell, test, settings);
+
+        int reason = choose(cell.leavesImage, kHitReasonOffScreen, kHizRuns);
+        reason = choose(cell.isLast, ray.endReason, reason);
+        reason = choose(descends, kHizRuns, reason);
+        bool isHit = kind == kIntersectionDepth;
+        end = choose(isHit, kHitReasonNone, reason);
+        endS = choose(isHit, test.s, state.s);
+        endAffine = choose(isHit, test.affineDepth, screenRayAffineDepth(ray, state.s));
+        if (end != kHizRuns) break;
     }
-    return makeHizEnd(view, ray, state, kHitReasonIterationCap, settings.maxIterations, maxUsedLevel, kind);
+    bool isCapped = end == kHizRuns;
+    bool isHit = end == kHitReasonNone;
+    int reason = computeHizReason(choose(isCapped, kHitReasonIterationCap, end), state.inFront, state.wasHidden);
+    reason = choose(isHit, kHitReasonNone, reason);
+    return TraceResult(computeHizClass(reason), reason, screenRayPositionSS(ray, endS),
+                       linearDepthFromAffine(frame.orthographic, endAffine), iterations, maxUsedLevel, kind);
 }
 
 #endif

@@ -11,68 +11,37 @@
 #include "crossray/core/view.glsl"
 #include "crossray/shared/outputs.glsl"
 
+// What a march over the screen needs of the view.
+struct ScreenFrame {
+    ivec2 imageSize; // pixels
+    float footprint; // of a pixel: metres a metre of distance, or metres in orthographic views
+    bool orthographic;
+};
+
 struct ScreenRay {
-    vec2 startSS; // pixels
-    vec2 deltaSS; // pixels to the end of the ray, which may lie off screen
+    vec2 startSS;      // pixels
+    vec2 deltaSS;      // pixels to the end of the ray, which may lie off screen; no component is 0
+    float pixelLength; // the part of the ray, in s, that is a pixel along its longer axis
     float startAffineDepth;
     float deltaAffineDepth;
     int endReason; // what the end of the ray is: kHitReasonNearPlane or kHitReasonSky
-    int status;    // kHitReasonNone, or why there is nothing to march; all else is then 0
+    int status;    // kHitReasonNone, or why there is nothing to march
 };
 
-float affineDepthFromLinear(View view, float linearDepth)
+ScreenFrame makeScreenFrame(View view)
 {
-    return view.orthographic ? -linearDepth : 1.0 / max(linearDepth, 1e-30);
+    return ScreenFrame(ivec2(view.imageSize), 2.0 * view.slope.y / view.imageSize.y, view.orthographic);
+}
+
+float affineDepthFromLinear(bool orthographic, float linearDepth)
+{
+    return choose(orthographic, -linearDepth, 1.0 / max(linearDepth, 1e-30));
 }
 
 // Perspective: affine depths of 0 and less lie at infinity or beyond, and give 1e30 m.
-float linearDepthFromAffine(View view, float affineDepth)
+float linearDepthFromAffine(bool orthographic, float affineDepth)
 {
-    float fromPerspective = affineDepth > 1e-30 ? 1.0 / affineDepth : 1e30;
-    return view.orthographic ? -affineDepth : fromPerspective;
-}
-
-ScreenRay makeEmptyScreenRay(int status)
-{
-    return ScreenRay(vec2(0.0), vec2(0.0), 0.0, 0.0, kHitReasonNone, status);
-}
-
-// The ray from its origin to the near plane, the far plane, or 65504 m, whichever comes first. Status:
-// kHitReasonDegenerateRay for input that is not finite or has no direction; kHitReasonNearPlane when it starts at or
-// before the near plane and does not run away from the eye, or starts behind the eye; kHitReasonSky when it starts
-// beyond the far plane, not coming back.
-ScreenRay makeScreenRay(View view, vec3 originWS, vec3 dirWS)
-{
-    vec3 dir = safeNormalize(directionVSFromWS(view, dirWS), vec3(0.0));
-    vec3 origin = positionVSFromWS(view, originWS);
-    if (!hasDirection(dir) || !isFinite(origin)) return makeEmptyScreenRay(kHitReasonDegenerateRay);
-
-    float startDepth = -origin.z;
-    float depthRate = -dir.z; // metres of depth a metre of ray
-    bool isAhead = startDepth > 0.0;
-    if (!isAhead) return makeEmptyScreenRay(kHitReasonNearPlane);
-    float toNear = depthRate < 0.0 ? safeDivide(view.nearDistance - startDepth, depthRate, kFarAway) : kFarAway;
-    float toFar = depthRate > 0.0 ? safeDivide(view.farDistance - startDepth, depthRate, kFarAway) : kFarAway;
-    if (toNear <= 0.0) return makeEmptyScreenRay(kHitReasonNearPlane);
-    if (toFar <= 0.0) return makeEmptyScreenRay(kHitReasonSky);
-    float range = min(kFarAway, min(toNear, toFar));
-    bool meetsNear = toNear < toFar && toNear < kFarAway;
-    float endDepth = meetsNear ? view.nearDistance : startDepth + range * depthRate;
-
-    // The difference of the two projections, in the form that does not cancel: the lateral part that perspective
-    // leaves.
-    vec2 scale = screenScale(view);
-    vec2 lateral = dir.xy * startDepth - origin.xy * depthRate;
-    vec2 deltaPerspective = scale * lateral * (range / (startDepth * endDepth));
-    vec2 deltaSS = view.orthographic ? scale * dir.xy * range : deltaPerspective;
-    vec2 startSS = 0.5 * view.imageSize + scale * origin.xy / (view.orthographic ? 1.0 : startDepth);
-    float startAffine = affineDepthFromLinear(view, startDepth);
-    float deltaAffine = view.orthographic ? startDepth - endDepth : (startDepth - endDepth) / (startDepth * endDepth);
-    if (!isFinite(startSS) || !isFinite(deltaSS) || !isFinite(vec2(startAffine, deltaAffine))) {
-        return makeEmptyScreenRay(kHitReasonDegenerateRay);
-    }
-    int endReason = meetsNear ? kHitReasonNearPlane : kHitReasonSky;
-    return ScreenRay(startSS, deltaSS, startAffine, deltaAffine, endReason, kHitReasonNone);
+    return choose(orthographic, -affineDepth, 1.0 / max(affineDepth, 1e-30));
 }
 
 vec2 screenRayPositionSS(ScreenRay ray, float s)
@@ -83,6 +52,51 @@ vec2 screenRayPositionSS(ScreenRay ray, float s)
 float screenRayAffineDepth(ScreenRay ray, float s)
 {
     return ray.startAffineDepth + ray.deltaAffineDepth * s;
+}
+
+// The ray from its origin to the near plane, the far plane, or 65504 m, whichever comes first. Status:
+// kHitReasonDegenerateRay for input that is not finite or has no direction; kHitReasonNearPlane when it starts at or
+// before the near plane and does not run away from the eye, or starts behind the eye; kHitReasonSky when it starts
+// beyond the far plane, not coming back. With a status the ray is a point at screen position 0 and linear depth 1.
+ScreenRay makeScreenRay(View view, vec3 originWS, vec3 dirWS)
+{
+    vec3 dir = safeNormalize(directionVSFromWS(view, dirWS), vec3(0.0));
+    vec3 origin = positionVSFromWS(view, originWS);
+    bool isDirected = hasDirection(dir);
+    bool isPlaced = isFinite(origin);
+    float startDepth = -origin.z;
+    float depthRate = -dir.z; // metres of depth a metre of ray
+    bool isAhead = startDepth > 0.0;
+    float toNear = choose(depthRate < 0.0, safeDivide(view.nearDistance - startDepth, depthRate, kFarAway), kFarAway);
+    float toFar = choose(depthRate > 0.0, safeDivide(view.farDistance - startDepth, depthRate, kFarAway), kFarAway);
+    bool isNear = toNear <= 0.0 || !isAhead;
+    bool isFar = toFar <= 0.0;
+    float range = min(kFarAway, min(toNear, toFar));
+    bool isNearFirst = toNear < toFar;
+    bool meetsNear = isNearFirst && toNear < kFarAway;
+    float endDepth = choose(meetsNear, view.nearDistance, startDepth + range * depthRate);
+
+    // The difference of the two projections in the form that does not cancel: the lateral part that perspective leaves.
+    vec2 scale = screenScale(view);
+    float product = choose(isAhead, startDepth * endDepth, 1.0);
+    vec2 lateral = choose(view.orthographic, dir.xy, (dir.xy * startDepth - origin.xy * depthRate) / product);
+    vec2 delta = scale * lateral * range;
+    float divisor = choose(isAhead, startDepth, 1.0);
+    vec2 startSS = 0.5 * view.imageSize + scale * origin.xy / choose(view.orthographic, 1.0, divisor);
+    float startAffine = affineDepthFromLinear(view.orthographic, startDepth);
+    float deltaAffine = (startDepth - endDepth) / choose(view.orthographic, 1.0, product);
+    bool isComputed = isFinite(vec4(startSS, delta)) && isFinite(vec2(startAffine, deltaAffine));
+
+    int status = choose(isFar, kHitReasonSky, kHitReasonNone);
+    status = choose(isNear, kHitReasonNearPlane, status);
+    bool isUsable = isDirected && isPlaced;
+    status = choose(isUsable && (isComputed || status != kHitReasonNone), status, kHitReasonDegenerateRay);
+    bool isRay = status == kHitReasonNone;
+    vec2 deltaSS =
+        vec2(awayFromZero(choose(isRay, delta.x, 0.0), 1e-20), awayFromZero(choose(isRay, delta.y, 0.0), 1e-20));
+    return ScreenRay(choose(isRay, startSS, vec2(0.0)), deltaSS, 1.0 / max(abs(deltaSS.x), abs(deltaSS.y)),
+                     choose(isRay, startAffine, affineDepthFromLinear(view.orthographic, 1.0)),
+                     choose(isRay, deltaAffine, 0.0), choose(meetsNear, kHitReasonNearPlane, kHitReasonSky), status);
 }
 
 #endif
