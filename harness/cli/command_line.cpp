@@ -22,6 +22,7 @@ struct CommandLine {
     SelectionOptions list;
     bool listJson = false;
     ShowOptions show;
+    ThroughputVerbOptions throughput;
     CompileVerbOptions compile;
     bool noOptimization = false;
     std::string before, after;
@@ -186,6 +187,27 @@ void addTools(CLI::App& app, CommandLine& line)
 
     CLI::App& doctor = *app.add_subcommand("doctor", "Show which backends, compilers and folders are there");
     doctor.callback([&line] { line.verb = [&line] { return diagnose(line.global); }; });
+
+    CLI::App& bench = *app.add_subcommand("bench", "Measure speed");
+    bench.require_subcommand(1);
+    CLI::App& throughput = *bench.add_subcommand("throughput", "Milliseconds a case, on each backend");
+    throughput.add_option("--backend", line.throughput.backends, "As for run")
+        ->type_name("NAME,...")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    throughput.add_option("--cases", line.throughput.cases, "Distinct cases")
+        ->type_name("N")
+        ->check(CLI::Range(1, 4096));
+    throughput.add_option("--cores", line.throughput.cores, "Processors, one measurement each")
+        ->type_name("N,...")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(CLI::Range(1, 1024));
+    throughput.add_option("--rounds", line.throughput.rounds, "The median of so many counts")
+        ->type_name("N")
+        ->check(CLI::Range(1, 99));
+    throughput.add_option("-o,--output", line.throughput.output, "The figures as JSON")->type_name("FILE");
+    throughput.callback([&line] { line.verb = [&line] { return benchThroughput(line.global, line.throughput); }; });
 
     CLI::App& worker = *app.add_subcommand("worker", "Serve one backend; started by run")->group("");
     worker.add_option("--backend", line.workerBackend)->required();

@@ -79,6 +79,15 @@ int reviewGoldens(const GlobalOptions& global, const ReviewOptions& options);
 
 int diagnose(const GlobalOptions& global);
 
+struct ThroughputVerbOptions {
+    std::vector<std::string> backends;
+    int cases = 32;
+    std::vector<int> cores{1, 2};
+    int rounds = 3;
+    std::string output; // JSON; empty: none
+};
+int benchThroughput(const GlobalOptions& global, const ThroughputVerbOptions& options);
+
 // Cases for a command line: prints what is wrong with it to standard error. `keepGoing` lets broken files pass. The
 // exit code is set when there is nothing to go on with.
 struct SelectedCases {
