@@ -131,14 +131,15 @@ std::map<std::string, std::string> workerEnvironment(const std::string& backend,
         variables["VK_ICD_FILENAMES"] = icd->string();
         variables["VK_DRIVER_FILES"] = icd->string();
     }
-    if (isGl(backend)) variables["GALLIUM_DRIVER"] = backend == "softpipe" ? "softpipe" : "llvmpipe";
+    if (isGl(backend))
+        variables.insert_or_assign("GALLIUM_DRIVER", std::string(backend == "softpipe" ? "softpipe" : "llvmpipe"));
     if (backend == "softpipe") {
-        variables["MESA_GL_VERSION_OVERRIDE"] = "4.5";
-        variables["MESA_GLSL_VERSION_OVERRIDE"] = "450";
+        variables.insert_or_assign("MESA_GL_VERSION_OVERRIDE", std::string("4.5"));
+        variables.insert_or_assign("MESA_GLSL_VERSION_OVERRIDE", std::string("450"));
     }
     if (backend == "egl") {
-        variables["EGL_PLATFORM"] = "surfaceless";
-        variables["LIBGL_ALWAYS_SOFTWARE"] = "1";
+        variables.insert_or_assign("EGL_PLATFORM", std::string("surfaceless"));
+        variables.insert_or_assign("LIBGL_ALWAYS_SOFTWARE", std::string("1"));
     }
     return variables;
 }

@@ -45,6 +45,11 @@ double millisecondsSince(Clock::time_point start)
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
+MemoryUse largerOf(const MemoryUse& a, const MemoryUse& b)
+{
+    return a.peak >= b.peak ? a : b;
+}
+
 // One (backend, core) pair: the process, if one lives, and what it is known to hold.
 class Worker {
   public:
@@ -57,7 +62,7 @@ class Worker {
     Fingerprint open(); // throws EnvironmentError
     void dismiss();
     int processId();
-    uint64_t peakMemory();
+    MemoryUse memory(); // the largest of its processes
 
   private:
     std::optional<JobReport> start(); // a report when it failed
@@ -75,14 +80,14 @@ class Worker {
     WorkerGreeting greeting_;
     std::set<std::string> programs_; // keys whose code the process holds
     std::optional<std::string> refusal_;
-    uint64_t peakMemory_ = 0; // of earlier processes
+    MemoryUse memory_; // the largest of earlier processes
 };
 
 void Worker::drop()
 {
     std::unique_ptr<WorkerProcess> dead;
     const std::lock_guard lock(processMutex_);
-    if (process_) peakMemory_ = std::max(peakMemory_, process_->peakMemory());
+    if (process_) memory_ = largerOf(memory_, process_->memory());
     dead = std::move(process_);
     programs_.clear();
 }
@@ -214,10 +219,10 @@ int Worker::processId()
     return process_ ? process_->pid() : -1;
 }
 
-uint64_t Worker::peakMemory()
+MemoryUse Worker::memory()
 {
     const std::lock_guard lock(processMutex_);
-    return std::max(peakMemory_, process_ ? process_->peakMemory() : 0);
+    return process_ ? largerOf(memory_, process_->memory()) : memory_;
 }
 
 } // namespace
@@ -292,8 +297,16 @@ std::vector<int> WorkerPool::processIds(const std::string& backend) const
 uint64_t WorkerPool::peakMemory() const
 {
     uint64_t sum = 0;
-    for (Worker* worker : impl_->allWorkers())
-        sum += worker->peakMemory();
+    std::map<std::string, uint64_t> shared; // by backend
+    const std::lock_guard lock(impl_->mutex);
+    for (const auto& [place, worker] : impl_->workers) {
+        const MemoryUse use = worker->memory();
+        uint64_t& common = shared[place.first];
+        common = std::max(common, use.shared);
+        sum += use.peak - std::min(use.peak, use.shared);
+    }
+    for (const auto& [backend, bytes] : shared)
+        sum += bytes;
     return sum;
 }
 

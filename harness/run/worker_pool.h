@@ -56,7 +56,8 @@ class WorkerPool {
     Fingerprint fingerprint(const std::string& backend, int core = 0);
     // Process ids of live workers. Killing one ends the job that it runs as a crash.
     std::vector<int> processIds(const std::string& backend) const;
-    // Sum of the workers' peak resident memory so far, bytes.
+    // Sum of the workers' peak resident memory so far, bytes. Pages of libraries count once a backend, not once a
+    // worker.
     uint64_t peakMemory() const;
 
   private:

@@ -12,7 +12,6 @@
 #include <fstream>
 #include <poll.h>
 #include <sched.h>
-#include <sys/resource.h>
 #include <sys/uio.h>
 #include <sys/wait.h>
 #include <thread>
@@ -202,11 +201,9 @@ bool WorkerProcess::waitUntil(Deadline deadline)
 {
     auto pause = std::chrono::microseconds(50);
     while (!reaped_) {
-        rusage usage{};
-        const pid_t got = ::wait4(pid_, &status_, WNOHANG, &usage);
+        const pid_t got = ::waitpid(pid_, &status_, WNOHANG);
         if (got == pid_ || (got < 0 && errno != EINTR)) {
             reaped_ = true;
-            if (peakMemory_ == 0) peakMemory_ = static_cast<uint64_t>(usage.ru_maxrss) * 1024;
             break;
         }
         if (Clock::now() >= deadline) return false;
@@ -219,7 +216,7 @@ bool WorkerProcess::waitUntil(Deadline deadline)
 
 std::string WorkerProcess::kill(std::chrono::milliseconds grace)
 {
-    peakMemory();
+    memory();
     if (!waitUntil(Clock::now() + grace)) {
         ::kill(pid_, SIGKILL);
         waitUntil(Deadline::max());
@@ -250,15 +247,21 @@ void WorkerProcess::drainLog()
     }
 }
 
-uint64_t WorkerProcess::peakMemory()
+// From /proc: getrusage of a child would count what this process held when it forked.
+MemoryUse WorkerProcess::memory()
 {
-    if (reaped_) return peakMemory_;
+    const std::lock_guard lock(memoryMutex_);
+    if (reaped_) return memory_;
     std::ifstream status(fmt::format("/proc/{}/status", pid_));
     std::string line;
     while (std::getline(status, line)) {
-        if (line.starts_with("VmHWM:")) peakMemory_ = std::strtoull(line.c_str() + 6, nullptr, 10) * 1024;
+        const auto readKilobytes = [&line](std::string_view name, uint64_t& bytes) {
+            if (line.starts_with(name)) bytes = std::strtoull(line.c_str() + name.size(), nullptr, 10) * 1024;
+        };
+        readKilobytes("VmHWM:", memory_.peak);
+        readKilobytes("RssFile:", memory_.shared);
     }
-    return peakMemory_;
+    return memory_;
 }
 
 } // namespace crossray

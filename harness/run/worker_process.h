@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
@@ -57,6 +58,11 @@ class LogRing {
 // How an exchange ended.
 enum class ExchangeEnd { kAnswered, kDied, kTimeout, kGarbage };
 
+struct MemoryUse {
+    uint64_t peak = 0;   // resident at most, bytes
+    uint64_t shared = 0; // of that, pages of files: the libraries, which other workers of the backend map as well
+};
+
 class WorkerProcess {
   public:
     using Deadline = std::chrono::steady_clock::time_point;
@@ -84,9 +90,9 @@ class WorkerProcess {
     void dismiss() { request_.reset(); }
 
     pid_t pid() const { return pid_; }
-    bool isAlive();        // reaps it when it is dead
-    LogRing& log();        // with what has arrived until now
-    uint64_t peakMemory(); // bytes; of a dead process, the last known; from any thread
+    bool isAlive();     // reaps it when it is dead
+    LogRing& log();     // with what has arrived until now
+    MemoryUse memory(); // of a dead process, the last known; from any thread
 
   private:
     bool waitUntil(Deadline deadline);
@@ -98,7 +104,8 @@ class WorkerProcess {
     int status_ = 0;
     UniqueFd request_, reply_, logPipe_;
     LogRing log_;
-    std::atomic<uint64_t> peakMemory_ = 0;
+    std::mutex memoryMutex_;
+    MemoryUse memory_;
 };
 
 // "signal 11 (Segmentation fault)" or "exit code 3" of a status from waitpid.
