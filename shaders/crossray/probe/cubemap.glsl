@@ -1,0 +1,73 @@
+// Cubemaps without a cubemap sampler: from a direction to a face and its coordinates and back, and across edges.
+// Hooks: none. Source: the cube map tables of the OpenGL and Vulkan specifications (faces +x, -x, +y, -y, +z, -z; the
+// image's row 0 at v = 0).
+#ifndef CROSSRAY_PROBE_CUBEMAP_GLSL
+#define CROSSRAY_PROBE_CUBEMAP_GLSL
+
+#include "crossray/core/math.glsl"
+
+struct CubePosition {
+    int face;   // 0 to 5
+    vec2 uv;    // [0,1], v down
+    bool valid; // false: no direction; face 0, uv in its middle
+};
+
+// Where a direction of any length points to. Of equal components z wins over y, and y over x, as Vulkan has it.
+CubePosition cubePositionFromDirection(vec3 dir)
+{
+    vec3 d = safeNormalize(dir, vec3(1.0, 0.0, 0.0));
+    vec3 size = abs(d);
+    bool isZ = size.z >= size.x && size.z >= size.y;
+    bool isY = !isZ && size.y >= size.x;
+    float major = isZ ? d.z : (isY ? d.y : d.x);
+    bool isPositive = major > 0.0;
+    float s = isZ ? (isPositive ? d.x : -d.x) : (isY ? d.x : (isPositive ? -d.z : d.z));
+    float t = isY ? (isPositive ? d.z : -d.z) : -d.y;
+    int face = (isZ ? 4 : (isY ? 2 : 0)) + (isPositive ? 0 : 1);
+    return CubePosition(face, saturate((vec2(s, t) / abs(major) + vec2(1.0)) * 0.5), hasDirection(dir));
+}
+
+// The point of the unit cube (components up to 1) at s to the right, t down, on the plane of that face pushed to
+// `major`. Faces outside 0 to 5 count as the nearest.
+vec3 cubePoint(int face, float s, float t, float major)
+{
+    if (face <= 0) return vec3(major, -t, -s);
+    if (face == 1) return vec3(-major, -t, s);
+    if (face == 2) return vec3(s, major, t);
+    if (face == 3) return vec3(s, -major, -t);
+    if (face == 4) return vec3(s, -t, major);
+    return vec3(-s, -t, -major);
+}
+
+// Unit direction of a face's point; uv beyond [0,1] stays on the face's plane.
+vec3 directionFromCubePosition(int face, vec2 uv)
+{
+    vec2 st = uv * 2.0 - vec2(1.0);
+    return safeNormalize(cubePoint(face, st.x, st.y, 1.0), cubePoint(face, 0.0, 0.0, 1.0));
+}
+
+// The position that a point beyond a face's edge has on the neighbour, folded over the edge: texel centres fall on
+// texel centres, so that a filter's footprint stays whole. Beyond a corner no third face waits: the nearer side's
+// excess is dropped. An excess of more than a face folds as one face; NaN counts as the middle.
+CubePosition foldCubePosition(int face, vec2 uv)
+{
+    bool isUsable = isFinite(uv);
+    vec2 st = isUsable ? uv * 2.0 - vec2(1.0) : vec2(0.0);
+    vec2 excess = clamp(abs(st) - vec2(1.0), 0.0, 2.0);
+    bool overSide = excess.x > 0.0 && excess.x >= excess.y;
+    bool overEnd = !overSide && excess.y > 0.0;
+    vec2 inside = clamp(st, -1.0, 1.0);
+    float major = 1.0 - (overSide ? excess.x : (overEnd ? excess.y : 0.0));
+    vec3 point = cubePoint(face, inside.x, inside.y, major);
+    int first = clamp(face, 0, 5);
+    if (!overSide && !overEnd) return CubePosition(first, (inside + vec2(1.0)) * 0.5, isUsable);
+    // The neighbour is the face that the crossed edge belongs to besides this one.
+    vec3 edge = cubePoint(face, overSide ? inside.x : 0.0, overEnd ? inside.y : 0.0, 0.0);
+    int neighbour = cubePositionFromDirection(edge).face;
+    vec3 right = cubePoint(neighbour, 1.0, 0.0, 0.0);
+    vec3 down = cubePoint(neighbour, 0.0, 1.0, 0.0);
+    vec2 folded = vec2(dot(point, right), dot(point, down));
+    return CubePosition(neighbour, saturate((folded + vec2(1.0)) * 0.5), isUsable);
+}
+
+#endif
