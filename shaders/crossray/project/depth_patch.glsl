@@ -70,9 +70,12 @@ bool agree(float a, float b, float bend)
     return abs(a - b) <= max(bend, flatter);
 }
 
-// Slope of a cell along one axis (0 x, 1 y): the mean of both sides where they agree. Else the flatter side, if it is
-// no edge: flat enough, or going on beyond the neighbour. No side: 0. A `favour` other than 0 takes, where the sides
-// part, the one that falls away in its direction.
+// Slope of a cell along one axis (0 x, 1 y). Where the two sides differ, the side that goes on straight beyond its
+// neighbour is the surface's own, and the other runs over a corner or an edge (the choice of the smoothest stencil:
+// Harten, Engquist, Osher and Chakravarthy 1987, "Uniformly high order accurate essentially non-oscillatory schemes").
+// Where neither does, the mean of both where they agree; else the flatter side, if it is no edge: flat enough, or going
+// on beyond the neighbour. No side: 0. A `favour` other than 0 takes, where the sides part and neither is straight, the
+// one that falls away in its direction.
 float fitSlope(ScreenFrame frame, ivec2 cell, int axis, int level, float depth, float bend, float favour)
 {
     ivec2 cells = depthPyramidSize(level);
@@ -103,25 +106,35 @@ float fitSlope(ScreenFrame frame, ivec2 cell, int axis, int level, float depth, 
     bool isFlat = abs(slope) <= 4.0 * bend;
     bool isCertain = isSmooth || isFlat;
     bool isSure = isCertain || isFavoured;
-    if (!isSure) {
-        int beyondPlace = choose(takeBefore, -2, 2);
-        float depthBeyond = fetchNearest(cell + along * beyondPlace, level, cells);
-        CellSpan spanBeyond = computeCellSpan(place + beyondPlace, level, count, side);
-        float first = choose(takeBefore, depthBeyond, depthAfter);
-        float second = choose(takeBefore, depthBefore, depthBeyond);
-        CellSpan spanFirst = CellSpan(choose(takeBefore, spanBeyond.begin, spanAfter.begin),
-                                      choose(takeBefore, spanBeyond.end, spanAfter.end));
-        CellSpan spanSecond = CellSpan(choose(takeBefore, spanBefore.begin, spanBeyond.begin),
-                                       choose(takeBefore, spanBefore.end, spanBeyond.end));
-        DepthDifference beyond = computeDepthDifference(frame.orthographic, first, second, spanFirst, spanSecond);
-        bool isStraight = agree(beyond.slope, slope, bend);
-        bool goesOn = beyond.isKnown && isStraight;
-        slope = choose(goesOn, slope, 0.0);
+    slope = choose(isSmooth, 0.5 * (before.slope + after.slope), slope);
+    float difference = abs(after.slope - before.slope);
+    bool isPlane = isBetween && difference <= 0.0625 * bend;
+    if (!isPlane) {
+        DepthDifference beyondBefore =
+            computeDepthDifference(frame.orthographic, fetchNearest(cell - along * 2, level, cells), depthBefore,
+                                   computeCellSpan(place - 2, level, count, side), spanBefore);
+        DepthDifference beyondAfter =
+            computeDepthDifference(frame.orthographic, depthAfter, fetchNearest(cell + along * 2, level, cells),
+                                   spanAfter, computeCellSpan(place + 2, level, count, side));
+        bool knowsBefore = before.isKnown && beyondBefore.isKnown;
+        bool knowsAfter = after.isKnown && beyondAfter.isKnown;
+        float bendBefore = choose(knowsBefore, abs(before.slope - beyondBefore.slope), 1e30);
+        float bendAfter = choose(knowsAfter, abs(beyondAfter.slope - after.slope), 1e30);
+        bool isStraight = min(bendBefore, bendAfter) < 0.25 * difference;
+        bool hasChoice = isBetween && isStraight;
+        float straight = choose(bendBefore <= bendAfter, before.slope, after.slope);
+        // The side taken above, where it must prove itself.
+        float beyondSlope = choose(takeBefore, beyondBefore.slope, beyondAfter.slope);
+        bool isKnownBeyond = (takeBefore && knowsBefore) || (!takeBefore && knowsAfter);
+        bool isParallelBeyond = agree(beyondSlope, slope, bend);
+        bool goesOn = isKnownBeyond && isParallelBeyond;
+        bool stays = isSure || goesOn;
+        slope = choose(hasChoice, straight, choose(stays, slope, 0.0));
     }
-    return choose(isSmooth, 0.5 * (before.slope + after.slope), slope);
+    return slope;
 }
 
-// The plane of a cell whose nearest depth is given; it must hold a surface. 4 to 6 reads. `favourSS`: a direction in
+// The plane of a cell whose nearest depth is given; it must hold a surface. 4 to 8 reads. `favourSS`: a direction in
 // which the plane falls away where its sides leave the choice; 0 for the flatter side.
 DepthPatch fitDepthPatch(ScreenFrame frame, ivec2 cell, int level, float nearestLinearDepth, vec2 favourSS)
 {
