@@ -209,11 +209,14 @@ CaseJudge::judgeAgreements(const std::string& backend,
     return results;
 }
 
-bool CaseJudge::hasAgreements(const std::string& backend) const
+std::vector<std::string> CaseJudge::referencesOf(const std::string& backend) const
 {
-    const auto& expectations = data_->testCase().expectations;
-    return std::any_of(expectations.begin(), expectations.end(),
-                       [&](const Expectation& expectation) { return isHeldTo(expectation, backend); });
+    std::vector<std::string> references;
+    for (const Expectation& expectation : data_->testCase().expectations) {
+        if (isHeldTo(expectation, backend))
+            references.push_back(referenceOf(std::get<AgreeSource>(expectation.source)));
+    }
+    return references;
 }
 
 bool CaseJudge::isReference(const std::string& backend) const

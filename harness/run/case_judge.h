@@ -31,7 +31,8 @@ class CaseJudge {
     // The agreements that name this backend; a reference that gave no planes leaves them unjudged, with a note.
     std::vector<ExpectationResult> judgeAgreements(const std::string& backend,
                                                    const std::map<std::string, std::vector<Plane>>& planesOfBackends);
-    bool hasAgreements(const std::string& backend) const;
+    // The backends that this one is held against.
+    std::vector<std::string> referencesOf(const std::string& backend) const;
     // Whether some other backend is held against this one.
     bool isReference(const std::string& backend) const;
 

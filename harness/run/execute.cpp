@@ -1,7 +1,6 @@
 #include "harness/run/execute.h"
 
-#include "harness/run/answer.h"
-#include "harness/run/plane_files.h"
+#include "harness/run/case_flight.h"
 #include "harness/run/schedule.h"
 #include "harness/run/verdict.h"
 
@@ -29,21 +28,26 @@ double millisecondsSince(Clock::time_point start)
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-bool runsOn(const Case& testCase, const std::string& backend)
+// An estimate of what a case holds while in flight, for the schedule's bound: its G-buffer, two jobs, the expected
+// planes, and those of the backends that are not judged yet or are held for others.
+size_t estimateBytes(const Case& testCase)
 {
-    return testCase.backends.empty() ||
-           std::find(testCase.backends.begin(), testCase.backends.end(), backend) != testCase.backends.end();
-}
-
-// An estimate of what a case holds while in flight, for the schedule's bound: its G-buffer, two jobs, and the planes of
-// all backends.
-size_t estimateBytes(const Case& testCase, size_t backendCount)
-{
-    size_t channels = 40;
+    constexpr size_t kInputChannels = 40;
+    constexpr size_t kPlanesAtOnce = 3;
+    size_t channels = kInputChannels;
     for (const OutputInfo& output : testCase.outputs)
-        channels += static_cast<size_t>(output.channels) * (backendCount + 1);
+        channels += static_cast<size_t>(output.channels) * kPlanesAtOnce;
     return static_cast<size_t>(testCase.camera.width) * static_cast<size_t>(testCase.camera.height) * channels *
            sizeof(double);
+}
+
+// The quick CPU devices first: they give the first verdicts, and are what the others are mostly held against.
+std::vector<std::string> orderForSchedule(std::vector<std::string> backends)
+{
+    const auto rank = [](const std::string& name) { return name == "cpu64" ? 0 : name == "cpu32" ? 1 : 2; };
+    std::stable_sort(backends.begin(), backends.end(),
+                     [&](const std::string& a, const std::string& b) { return rank(a) < rank(b); });
+    return backends;
 }
 
 CaseResult startCaseResult(const Case& testCase)
@@ -60,24 +64,12 @@ CaseResult startCaseResult(const Case& testCase)
     return result;
 }
 
-// Everything about a case between its preparation and its last verdict.
-struct CaseInFlight {
-    PreparedCase prepared;
-    std::unique_ptr<CaseJudge> judge;
-    std::map<std::string, std::vector<Plane>> planes; // of the backends that answered
-    struct BackendAnswer {
-        BackendResult result;
-        std::string difference; // between repeats
-    };
-    std::map<std::string, BackendAnswer> answers;
-};
-
 class Execution {
   public:
     Execution(const std::vector<Case>& cases, const ExecuteOptions& options, const ExecuteSteps& steps,
               RunObserver& observer, const std::atomic<bool>& interrupted, RunResult& run)
-        : cases_(cases), options_(options), steps_(steps), observer_(observer), interrupted_(interrupted), run_(run),
-          flights_(cases.size()), schedule_(makeSchedule())
+        : cases_(cases), options_(options), order_(orderForSchedule(options.backends)), steps_(steps),
+          observer_(observer), interrupted_(interrupted), run_(run), flights_(cases.size()), schedule_(makeSchedule())
     {
         for (const Case& testCase : cases_) {
             run_.cases.push_back(startCaseResult(testCase));
@@ -108,9 +100,9 @@ class Execution {
         std::vector<size_t> bytes;
         for (const Case& testCase : cases_) {
             std::vector<bool>& row = applies.emplace_back();
-            for (const std::string& backend : options_.backends)
+            for (const std::string& backend : order_)
                 row.push_back(runsOn(testCase, backend));
-            bytes.push_back(estimateBytes(testCase, options_.backends.size()));
+            bytes.push_back(estimateBytes(testCase));
         }
         return Schedule(std::move(applies), std::move(bytes), static_cast<size_t>(options_.cores), Schedule::Limits{});
     }
@@ -170,12 +162,11 @@ class Execution {
             return;
         }
         lock.unlock();
-        auto flight = std::make_unique<CaseInFlight>();
+        PreparedCase prepared;
         std::string error;
         bool isBrokenInput = false;
         try {
-            flight->prepared = steps_.prepare(testCase, needsFloat, needsDouble);
-            flight->judge = std::make_unique<CaseJudge>(flight->prepared.data);
+            prepared = steps_.prepare(testCase, needsFloat, needsDouble);
         } catch (const InputError& failure) {
             error = failure.what();
             isBrokenInput = true;
@@ -183,14 +174,14 @@ class Execution {
             error = failure.what();
         }
         lock.lock();
-        run_.cases[caseIndex].prepareMs = flight->prepared.prepareMs;
-        run_.cases[caseIndex].compileMs = flight->prepared.compileMs;
+        run_.cases[caseIndex].prepareMs = prepared.prepareMs;
+        run_.cases[caseIndex].compileMs = prepared.compileMs;
         if (error.empty()) {
-            flights_[caseIndex] = std::move(flight);
+            flights_[caseIndex] = std::make_unique<CaseFlight>(testCase, std::move(prepared), options_);
         } else {
             if (isBrokenInput) recordBrokenInput(error);
             for (const std::string& backend : options_.backends) {
-                if (runsOn(testCase, backend)) recordVerdict(caseIndex, makeErrorResult(backend, error));
+                if (runsOn(testCase, backend)) recordError(caseIndex, makeErrorResult(backend, error));
             }
         }
         schedule_.finishPrepare(caseIndex, error.empty());
@@ -208,10 +199,10 @@ class Execution {
 
     void runTask(std::unique_lock<std::mutex>& lock, size_t core, const Task& task)
     {
-        const std::string& backend = options_.backends[task.backend];
+        const std::string& backend = order_[task.backend];
         const Clock::time_point start = Clock::now();
         observer_.startBackend(backend, run_.cases[task.caseIndex]);
-        CaseInFlight& flight = *flights_[task.caseIndex];
+        CaseFlight& flight = *flights_[task.caseIndex];
         lock.unlock();
 
         Answer answer;
@@ -220,7 +211,7 @@ class Execution {
             answer.result = makeErrorResult(backend, error);
         } else {
             try {
-                answer = askBackend(cases_[task.caseIndex], flight.prepared, *flight.judge, backend,
+                answer = askBackend(cases_[task.caseIndex], flight.prepared(), flight.judge(), backend,
                                     static_cast<int>(core), options_, steps_, interrupted_);
             } catch (const InputError& failure) {
                 brokenInput = failure.what();
@@ -228,14 +219,12 @@ class Execution {
             }
         }
 
+        const bool cutOff = interrupted_ && answer.planes.empty();
+        CaseFlight::Settled settled;
+        if (!cutOff) settled = flight.take(std::move(answer), isExpectedToRepeat(backend));
         lock.lock();
         if (!brokenInput.empty()) recordBrokenInput(brokenInput);
-        const bool cutOff = interrupted_ && answer.planes.empty();
-        if (!cutOff) {
-            flight.answers[backend] = {std::move(answer.result), std::move(answer.difference)};
-            if (!answer.planes.empty()) flight.planes[backend] = std::move(answer.planes);
-            settleVerdict(task.caseIndex, backend, false);
-        }
+        record(task.caseIndex, std::move(settled));
         schedule_.finishRun(core, task.caseIndex, task.backend, millisecondsSince(start));
         if (schedule_.isComplete(task.caseIndex)) completeCase(lock, task.caseIndex);
         changed_.notify_all();
@@ -268,91 +257,44 @@ class Execution {
     bool isExpectedToRepeat(const std::string& backend)
     {
         const std::lock_guard lock(backendsMutex_);
-        return isSoftwareRasterizer(run_.backends.at(backend).fingerprint);
+        const auto record = run_.backends.find(backend);
+        return record != run_.backends.end() && isSoftwareRasterizer(record->second.fingerprint);
     }
 
-    // Decides the verdict of a backend once nothing that is still to come can change it. `final`: nothing is to come
-    // any more.
-    void settleVerdict(size_t caseIndex, const std::string& backend, bool final)
+    void record(size_t caseIndex, CaseFlight::Settled settled)
     {
-        CaseInFlight& flight = *flights_[caseIndex];
-        auto& [result, difference] = flight.answers[backend];
-        if (!flight.planes.contains(backend)) {
-            recordVerdict(caseIndex, result);
-            return;
-        }
-        if (!final && flight.judge->hasAgreements(backend)) return;
-        const Judgement judgement = judgeAnswer(cases_[caseIndex], result, flight.judge->isReference(backend));
-        result.verdict = judgement.verdict;
-        result.reason = judgement.reason;
-        if (!difference.empty() && isExpectedToRepeat(backend)) {
-            result.verdict = Verdict::kFail;
-            result.reason = difference;
-        }
-        recordVerdict(caseIndex, result);
+        for (const std::string& line : settled.brokenInput)
+            recordBrokenInput(line);
+        for (BackendResult& result : settled.results)
+            recordVerdict(caseIndex, std::move(result));
     }
 
-    // All backends have answered: what they agree upon can be judged, and planes be written. The lock is released
-    // meanwhile, as no other thread has a task of this case any more.
+    // No other thread has a task of this case any more, so the lock can be released while planes are written.
     void completeCase(std::unique_lock<std::mutex>& lock, size_t caseIndex)
     {
-        CaseInFlight& flight = *flights_[caseIndex];
-        lock.unlock();
-        std::string brokenInput;
-        std::vector<std::string> late;
-        for (auto& [backend, answer] : flight.answers) {
-            BackendResult& result = answer.result;
-            if (!flight.planes.contains(backend) || !flight.judge->hasAgreements(backend)) continue;
-            late.push_back(backend);
-            const Clock::time_point start = Clock::now();
-            try {
-                auto agreements = flight.judge->judgeAgreements(backend, flight.planes);
-                std::move(agreements.begin(), agreements.end(), std::back_inserter(result.expectations));
-            } catch (const InputError& error) {
-                brokenInput = error.what();
-                result = makeErrorResult(backend, brokenInput);
-                flight.planes.erase(backend);
-                break;
-            }
-            result.times.judge += millisecondsSince(start);
-        }
-        lock.lock();
-        if (!brokenInput.empty()) recordBrokenInput(brokenInput);
-        for (const std::string& backend : late)
-            settleVerdict(caseIndex, backend, true);
+        CaseFlight& flight = *flights_[caseIndex];
+        record(caseIndex, flight.finish());
         CaseResult copy = run_.cases[caseIndex];
         lock.unlock();
-        keepPlanes(flight, copy);
+        flight.writePlanes(copy);
         lock.lock();
         run_.cases[caseIndex] = std::move(copy);
         finishCase(caseIndex);
         flights_[caseIndex].reset();
     }
 
-    void keepPlanes(const CaseInFlight& flight, CaseResult& testCase) const
+    // Of a case that could not be prepared.
+    void recordError(size_t caseIndex, BackendResult result)
     {
-        if (options_.keepPlanes == KeepPlanes::kNone || options_.outputFolder.empty()) return;
-        const PlaneFiles files(options_.outputFolder);
-        bool keptAny = false;
-        for (BackendResult& result : testCase.backends) {
-            const auto planes = flight.planes.find(result.backend);
-            const bool wanted = options_.keepPlanes == KeepPlanes::kAll || tallyOf(result.verdict) == Tally::kFailed ||
-                                result.verdict == Verdict::kKnownFail;
-            if (planes == flight.planes.end() || !wanted) continue;
-            result.planesFile = files.write(testCase.name, result.backend, planes->second);
-            keptAny = true;
-        }
-        const std::vector<Plane> expected = flight.judge->takeExpectedPlanes();
-        if (keptAny && !expected.empty()) testCase.expectedFile = files.write(testCase.name, "expected", expected);
+        const Judgement judgement =
+            applyKnownFailures(cases_[caseIndex], result.backend, options_.today, {result.verdict, result.reason});
+        result.verdict = judgement.verdict;
+        result.reason = judgement.reason;
+        recordVerdict(caseIndex, std::move(result));
     }
 
     void recordVerdict(size_t caseIndex, BackendResult result)
     {
-        const Case& testCase = cases_[caseIndex];
-        const Judgement judgement =
-            applyKnownFailures(testCase, result.backend, options_.today, {result.verdict, result.reason});
-        result.verdict = judgement.verdict;
-        result.reason = judgement.reason;
         if (run_.firstVerdictMs < 0 && result.verdict != Verdict::kSkip) {
             run_.firstVerdictMs = millisecondsSince(options_.processStart);
         }
@@ -399,11 +341,12 @@ class Execution {
 
     const std::vector<Case>& cases_;
     const ExecuteOptions& options_;
+    std::vector<std::string> order_; // of the backends in the schedule
     const ExecuteSteps& steps_;
     RunObserver& observer_;
     const std::atomic<bool>& interrupted_;
     RunResult& run_;
-    std::vector<std::unique_ptr<CaseInFlight>> flights_;
+    std::vector<std::unique_ptr<CaseFlight>> flights_;
     Schedule schedule_;
     std::mutex mutex_; // guards all above but run_.backends, and the observer
     std::mutex backendsMutex_;

@@ -25,8 +25,8 @@ struct Task {
 class Schedule {
   public:
     struct Limits {
-        size_t casesInFlight = 32;
-        size_t bytesInFlight = size_t{512} << 20;
+        size_t casesInFlight = 48;
+        size_t bytesInFlight = size_t{256} << 20;
         double workerStartMs = 150; // a second worker for a backend is worth it when more work than this waits
     };
 

@@ -1,0 +1,123 @@
+#include "harness/run/case_flight.h"
+
+#include "harness/run/plane_files.h"
+#include "harness/run/verdict.h"
+
+#include <algorithm>
+
+namespace crossray {
+
+namespace {
+
+bool wantsPlanes(KeepPlanes keep, const BackendResult& result)
+{
+    if (keep == KeepPlanes::kFailed) {
+        return tallyOf(result.verdict) == Tally::kFailed || result.verdict == Verdict::kKnownFail;
+    }
+    return keep == KeepPlanes::kAll;
+}
+
+} // namespace
+
+bool runsOn(const Case& testCase, const std::string& backend)
+{
+    return testCase.backends.empty() ||
+           std::find(testCase.backends.begin(), testCase.backends.end(), backend) != testCase.backends.end();
+}
+
+CaseFlight::CaseFlight(const Case& testCase, PreparedCase prepared, const ExecuteOptions& options)
+    : testCase_(testCase), prepared_(std::move(prepared)), options_(options), judge_(prepared_.data)
+{
+}
+
+bool CaseFlight::waitsForReference(const std::string& backend) const
+{
+    const std::vector<std::string> references = judge_.referencesOf(backend);
+    return std::any_of(references.begin(), references.end(), [&](const std::string& reference) {
+        const bool comes = runsOn(testCase_, reference) && std::find(options_.backends.begin(), options_.backends.end(),
+                                                                     reference) != options_.backends.end();
+        return comes && !answered_.contains(reference);
+    });
+}
+
+CaseFlight::Settled CaseFlight::take(Answer answer, bool repeatsExactly)
+{
+    const std::lock_guard lock(mutex_);
+    Settled settled;
+    const std::string backend = answer.result.backend;
+    answered_.insert(backend);
+    if (!answer.planes.empty()) planes_[backend] = std::move(answer.planes);
+    waiting_[backend] = {std::move(answer.result), repeatsExactly ? std::move(answer.difference) : std::string()};
+    // The answer may be the one that others waited for.
+    std::vector<std::string> ready;
+    for (const auto& [name, unused] : waiting_) {
+        if (!waitsForReference(name)) ready.push_back(name);
+    }
+    for (const std::string& name : ready)
+        settle(name, settled);
+    return settled;
+}
+
+CaseFlight::Settled CaseFlight::finish()
+{
+    const std::lock_guard lock(mutex_);
+    Settled settled;
+    while (!waiting_.empty())
+        settle(std::string(waiting_.begin()->first), settled);
+    return settled;
+}
+
+void CaseFlight::settle(const std::string& backend, Settled& settled)
+{
+    Waiting waiting = std::move(waiting_.at(backend));
+    waiting_.erase(backend);
+    BackendResult& result = waiting.result;
+    if (planes_.contains(backend)) {
+        const auto start = std::chrono::steady_clock::now();
+        try {
+            auto agreements = judge_.judgeAgreements(backend, planes_);
+            std::move(agreements.begin(), agreements.end(), std::back_inserter(result.expectations));
+            const Judgement judgement = judgeAnswer(testCase_, result, judge_.isReference(backend));
+            result.verdict = judgement.verdict;
+            result.reason = judgement.reason;
+        } catch (const InputError& error) {
+            settled.brokenInput.emplace_back(error.what());
+            result = makeErrorResult(backend, error.what());
+        }
+        if (!waiting.difference.empty() && result.verdict != Verdict::kError) {
+            result.verdict = Verdict::kFail;
+            result.reason = waiting.difference;
+        }
+        result.times.judge +=
+            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    }
+    const Judgement final = applyKnownFailures(testCase_, backend, options_.today, {result.verdict, result.reason});
+    result.verdict = final.verdict;
+    result.reason = final.reason;
+    dropPlanes(result);
+    settled.results.push_back(std::move(result));
+}
+
+// Planes are most of what a case holds in memory.
+void CaseFlight::dropPlanes(const BackendResult& result)
+{
+    if (judge_.isReference(result.backend) || wantsPlanes(options_.keepPlanes, result)) return;
+    planes_.erase(result.backend);
+}
+
+void CaseFlight::writePlanes(CaseResult& result) const
+{
+    if (options_.keepPlanes == KeepPlanes::kNone || options_.outputFolder.empty()) return;
+    const PlaneFiles files(options_.outputFolder);
+    bool keptAny = false;
+    for (BackendResult& backend : result.backends) {
+        const auto planes = planes_.find(backend.backend);
+        if (planes == planes_.end() || !wantsPlanes(options_.keepPlanes, backend)) continue;
+        backend.planesFile = files.write(result.name, backend.backend, planes->second);
+        keptAny = true;
+    }
+    const std::vector<Plane> expected = judge_.takeExpectedPlanes();
+    if (keptAny && !expected.empty()) result.expectedFile = files.write(result.name, "expected", expected);
+}
+
+} // namespace crossray

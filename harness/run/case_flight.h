@@ -1,0 +1,58 @@
+// One case between its preparation and its last verdict: takes the backends' answers in whatever order they come and
+// judges each as soon as nothing that is still to come can change its verdict.
+#pragma once
+
+#include "harness/run/answer.h"
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace crossray {
+
+// Thread-safe.
+class CaseFlight {
+  public:
+    CaseFlight(const Case& testCase, PreparedCase prepared, const ExecuteOptions& options);
+
+    const PreparedCase& prepared() const { return prepared_; }
+    CaseJudge& judge() { return judge_; }
+
+    struct Settled {
+        std::vector<BackendResult> results;   // with their final verdicts
+        std::vector<std::string> brokenInput; // what proved the case broken, one line each
+    };
+    // `repeatsExactly`: the device gives the same bits each time, so that a difference between repeats is a failure.
+    Settled take(Answer answer, bool repeatsExactly);
+    // Nothing is to come any more: what still waits for another backend is judged by what there is.
+    Settled finish();
+    // Writes the planes that the options ask for and notes their files in the results.
+    void writePlanes(CaseResult& result) const;
+
+  private:
+    struct Waiting {
+        BackendResult result;
+        std::string difference; // between repeats, where it counts
+    };
+
+    bool waitsForReference(const std::string& backend) const;
+    void settle(const std::string& backend, Settled& settled);
+    void dropPlanes(const BackendResult& result);
+
+    const Case& testCase_;
+    PreparedCase prepared_;
+    const ExecuteOptions& options_;
+    CaseJudge judge_;
+    std::mutex mutex_;
+    std::set<std::string> answered_;
+    std::map<std::string, Waiting> waiting_;
+    std::map<std::string, std::vector<Plane>> planes_; // those that are still needed
+};
+
+// Whether the case runs on the backend at all.
+bool runsOn(const Case& testCase, const std::string& backend);
+
+} // namespace crossray
