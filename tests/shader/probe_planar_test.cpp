@@ -199,6 +199,7 @@ TEST(ShaderPlanar, LookUpWeightsAndTheirReasons)
         EXPECT_EQ(status(vec3(0, 0, 4), forward), kPlanarBehindNearPlane);
         EXPECT_EQ(status(vec3(0, 0, 0), forward), kPlanarBehindNearPlane);
         EXPECT_EQ(status(vec3(0, 0, -4), vec3(0, Real(0.1), 1)), kPlanarOpposed);
+        EXPECT_EQ(status(vec3(0, 0, -4), vec3(1, 0, Real(0.01))), kPlanarOpposed);
         EXPECT_EQ(status(vec3(0, 0, -4), vec3(1, 0, 0)), kPlanarOk); // a right angle
         EXPECT_EQ(status(vec3(0, 0, -4000), forward), kPlanarOk);    // the far plane is no bound
         EXPECT_EQ(status(vec3(0, 0, -4), vec3(0)), kPlanarDegenerateRay);
