@@ -47,6 +47,12 @@ foreach(precision 32 64)
   target_compile_definitions(test_shader${precision} PRIVATE CROSSRAY_GLSL_PRECISION=${precision})
 endforeach()
 target_compile_options(test_shader32 PRIVATE -fsingle-precision-constant)
+# How good its tracer is, on the harness's random rooms.
+if(TARGET crossray_scene)
+  crossray_test_program(test_yardstick SOURCES tests/shader/yardstick/hiz.cpp tests/shader/yardstick/yardstick_test.cpp
+                        USES crossray_scene)
+  set_source_files_properties(tests/shader/yardstick/hiz.cpp PROPERTIES COMPILE_OPTIONS -fsingle-precision-constant)
+endif()
 # And as GLSL.
 crossray_test_program(test_shader_glsl SOURCES tests/shader/glsl/library_test.cpp USES crossray_compile)
 
