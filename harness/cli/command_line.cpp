@@ -87,6 +87,8 @@ void addRun(CLI::App& app, CommandLine& line)
     verb.add_option("-j,--jobs", run.cores, "Processors to use; default: all available")
         ->type_name("N")
         ->check(CLI::Range(1, 256));
+    verb.add_flag("--changed", run.changed,
+                  "Leave out what has passed with the same shader code, inputs and expectations (OUT/inputs.json)");
     verb.add_flag("-x,--exitfirst", line.stopAtFirst, "Stop at the first failure");
     verb.add_option("--max-fail", run.maxFailures, "Stop after N failures")
         ->type_name("N")

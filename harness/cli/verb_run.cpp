@@ -95,6 +95,9 @@ void printSummary(const RunResult& run, const RunOptions& options, const Style& 
         fmt::print(text, "{} cases on {} backends in {:.1f} s{}; results in {}/run.json\n", run.cases.size(),
                    run.backends.size(), run.seconds, others, options.output);
     }
+    if (!run.unchanged.empty()) {
+        fmt::print(text, "{} cases left out: they have passed with the same inputs\n", run.unchanged.size());
+    }
     for (const std::string& line : run.brokenFiles)
         fmt::print(text, "{} {}\n", style.paint(Ink::kRed, "broken:"), line);
     if (run.interrupted) fmt::print(text, "{}\n", style.paint(Ink::kYellow, "interrupted"));
@@ -138,6 +141,7 @@ int runCases(const GlobalOptions& global, const RunOptions& options)
         for (const std::string& note : backends.notes)
             fmt::print(stderr, "crossray: {}\n", note);
     }
+    const PassedCases passedBefore = readPassedCases(options.output);
     startRunFolder(options.output);
     catchInterrupts();
     // git takes some milliseconds of its own; nobody waits for it before the end.
@@ -166,6 +170,7 @@ int runCases(const GlobalOptions& global, const RunOptions& options)
         execution.timeoutSeconds = options.timeoutSeconds;
         execution.keepPlanes = options.planes;
         execution.outputFolder = options.output;
+        if (options.changed) execution.passedBefore = passedBefore;
         execution.today = formatToday();
         execution.processStart = global.processStart;
         execute(selected.cases, execution, makeSteps(pool, compiler, folders.shaders, backends.names), progress,
@@ -182,6 +187,7 @@ int runCases(const GlobalOptions& global, const RunOptions& options)
               [](const CaseResult& a, const CaseResult& b) { return a.name < b.name; });
     run.exitCode = static_cast<int>(computeExitCode(run));
     writeResults(run, options);
+    if (!options.validation) writePassedCases(options.output, mergePassedCases(passedBefore, run));
     if (options.github) fmt::print(text, "{}", formatGithubAnnotations(run));
     printSummary(run, options, style, text);
     if (options.json) fmt::print("{}", formatSummaryJson(run));

@@ -35,6 +35,7 @@ struct RunOptions {
     int cores = 0; // 0: all there are
     int maxFailures = 0;
     bool keepGoing = false;
+    bool changed = false; // only what has not passed with these inputs
     std::optional<double> timeoutSeconds;
     int repeat = 1;
     std::optional<uint64_t> seed; // order of the cases

@@ -79,8 +79,6 @@ class Execution {
     void runAll()
     {
         const Clock::time_point start = Clock::now();
-        for (size_t i = 0; i < cases_.size(); ++i)
-            skipForeignBackends(i);
         {
             std::vector<std::jthread> threads;
             for (int core = 0; core < options_.cores; ++core)
@@ -157,6 +155,7 @@ class Execution {
             if (runsOn(testCase, backend)) (usesDoubles(backend) ? needsDouble : needsFloat) = true;
         }
         if (!needsFloat && !needsDouble) {
+            skipForeignBackends(caseIndex);
             schedule_.finishPrepare(caseIndex, false);
             finishCase(caseIndex);
             return;
@@ -174,6 +173,14 @@ class Execution {
             error = failure.what();
         }
         lock.lock();
+        run_.cases[caseIndex].inputKey = prepared.inputKey;
+        if (error.empty() && isUnchanged(testCase, prepared.inputKey)) {
+            run_.unchanged.push_back(testCase.name);
+            schedule_.finishPrepare(caseIndex, false);
+            changed_.notify_all();
+            return;
+        }
+        skipForeignBackends(caseIndex);
         run_.cases[caseIndex].prepareMs = prepared.prepareMs;
         run_.cases[caseIndex].compileMs = prepared.compileMs;
         if (error.empty()) {
@@ -187,6 +194,15 @@ class Execution {
         schedule_.finishPrepare(caseIndex, error.empty());
         if (!error.empty()) finishCase(caseIndex);
         changed_.notify_all();
+    }
+
+    bool isUnchanged(const Case& testCase, const std::string& inputKey) const
+    {
+        if (!options_.passedBefore) return false;
+        const auto passed = options_.passedBefore->find(testCase.name);
+        if (passed == options_.passedBefore->end() || passed->second.key != inputKey) return false;
+        return std::all_of(options_.backends.begin(), options_.backends.end(),
+                           [&](const std::string& backend) { return passed->second.backends.contains(backend); });
     }
 
     void recordBrokenInput(const std::string& line)

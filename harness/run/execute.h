@@ -3,6 +3,7 @@
 
 #include "harness/pass/pass.h"
 #include "harness/run/case_judge.h"
+#include "harness/run/inputs.h"
 #include "harness/run/results.h"
 #include "harness/run/worker_pool.h"
 
@@ -27,8 +28,9 @@ struct ExecuteOptions {
     bool keepGoing = false;               // a broken case does not stop the others
     std::optional<double> timeoutSeconds; // instead of the cases' own
     KeepPlanes keepPlanes = KeepPlanes::kFailed;
-    std::filesystem::path outputFolder; // planes go below it; empty: nowhere
-    std::string today;                  // for known failures
+    std::filesystem::path outputFolder;      // planes go below it; empty: nowhere
+    std::optional<PassedCases> passedBefore; // leave out what has passed with the same inputs
+    std::string today;                       // for known failures
     std::chrono::steady_clock::time_point processStart = std::chrono::steady_clock::now();
 };
 
@@ -36,6 +38,7 @@ struct ExecuteOptions {
 struct PreparedCase {
     std::shared_ptr<const CaseData> data;   // kept by the judge, too
     std::optional<Job> floatJob, doubleJob; // only the precisions that some backend asks for
+    std::string inputKey;
     double prepareMs = 0, compileMs = 0;
 };
 

@@ -76,6 +76,7 @@ struct CaseResult {
     bool mustFail = false;
     double prepareMs = 0;                // scene, G-buffer
     double compileMs = 0;                // shaders and the job, of both precisions
+    std::string inputKey;                // of all that the verdicts depend on; empty when it could not be prepared
     std::string expectedFile;            // expected planes, relative to the run's folder; empty when not kept
     std::vector<BackendResult> backends; // in the run's order; those that were not reached are absent
 };
@@ -111,6 +112,7 @@ struct RunResult {
     uint64_t workersPeakBytes = 0;                // summed over the workers
     std::map<std::string, BackendRecord> backends;
     std::vector<std::string> brokenFiles; // one line each: file:line:column: what is wrong
+    std::vector<std::string> unchanged;   // --changed: cases that have passed with these inputs, by name
     std::vector<CaseResult> cases;
     int exitCode = 0;
 };

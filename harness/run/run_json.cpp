@@ -208,15 +208,12 @@ BackendResult backendResultFromJson(const Json& json)
 
 Json caseToJson(const CaseResult& testCase)
 {
-    Json json{{"name", testCase.name},
-              {"summary", testCase.summary},
-              {"tags", testCase.tags},
-              {"position", positionToJson(testCase.position)},
-              {"width", testCase.width},
-              {"height", testCase.height},
-              {"mustFail", testCase.mustFail},
-              {"times", {{"prepare", testCase.prepareMs}, {"compile", testCase.compileMs}}},
-              {"expected", testCase.expectedFile}};
+    Json json{
+        {"name", testCase.name},         {"summary", testCase.summary},
+        {"tags", testCase.tags},         {"position", positionToJson(testCase.position)},
+        {"width", testCase.width},       {"height", testCase.height},
+        {"mustFail", testCase.mustFail}, {"times", {{"prepare", testCase.prepareMs}, {"compile", testCase.compileMs}}},
+        {"inputs", testCase.inputKey},   {"expected", testCase.expectedFile}};
     Json backends = Json::array();
     for (const BackendResult& result : testCase.backends)
         backends.push_back(backendResultToJson(result));
@@ -236,6 +233,7 @@ CaseResult caseFromJson(const Json& json)
     testCase.mustFail = json.at("mustFail").get<bool>();
     testCase.prepareMs = json.at("times").at("prepare").get<double>();
     testCase.compileMs = json.at("times").at("compile").get<double>();
+    testCase.inputKey = json.at("inputs").get<std::string>();
     testCase.expectedFile = json.at("expected").get<std::string>();
     for (const Json& result : json.at("backends"))
         testCase.backends.push_back(backendResultFromJson(result));
@@ -296,7 +294,8 @@ Json headToJson(const RunResult& run)
               {"compilers", run.compilers},
               {"toolPeakBytes", run.toolPeakBytes},
               {"workersPeakBytes", run.workersPeakBytes},
-              {"brokenFiles", run.brokenFiles}};
+              {"brokenFiles", run.brokenFiles},
+              {"unchanged", run.unchanged}};
     Json backends = Json::object();
     for (const auto& [name, record] : run.backends)
         backends[name] = backendRecordToJson(record);
@@ -326,6 +325,7 @@ RunResult runFromJson(const Json& json)
     run.toolPeakBytes = json.at("toolPeakBytes").get<uint64_t>();
     run.workersPeakBytes = json.at("workersPeakBytes").get<uint64_t>();
     run.brokenFiles = json.at("brokenFiles").get<std::vector<std::string>>();
+    run.unchanged = json.at("unchanged").get<std::vector<std::string>>();
     for (const auto& [name, record] : json.at("backends").items())
         run.backends[name] = backendRecordFromJson(name, record);
     for (const Json& testCase : json.at("cases"))

@@ -27,6 +27,7 @@ PreparedCase prepareCase(const Case& testCase, bool needsFloat, bool needsDouble
     const Clock::time_point compileStart = Clock::now();
     if (needsFloat) prepared.floatJob = buildJob(*prepared.data, compiler, shaderRoot, Precision::kFloat);
     if (needsDouble) prepared.doubleJob = buildJob(*prepared.data, compiler, shaderRoot, Precision::kDouble);
+    prepared.inputKey = computeInputKey(testCase, prepared.floatJob ? *prepared.floatJob : *prepared.doubleJob);
     prepared.compileMs = millisecondsSince(compileStart);
     return prepared;
 }

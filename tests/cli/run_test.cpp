@@ -208,7 +208,7 @@ TEST_F(RunTest, anInterruptionLeavesWholeFilesAndExits130)
     EXPECT_GE(json["cases"].size(), 1u);
     size_t planes = 0;
     for (const fs::path& file : listFiles(folder_ / "out/last")) {
-        EXPECT_TRUE(file.extension() == ".exr" || file.filename() == "run.json") << file;
+        EXPECT_TRUE(file.extension() == ".exr" || file.extension() == ".json") << file;
         if (file.extension() == ".exr" && file.stem() != "expected") {
             ++planes;
             EXPECT_EQ(run(fmt::format("diff '{}' '{}'", file.string(), file.string())).exitCode, 0) << file;
@@ -228,6 +228,41 @@ TEST_F(RunTest, lastFailedRunsTheFailuresAgain)
     writeCase("cases/b.toml", "b");
     EXPECT_EQ(run("run --backend cpu64 --last-failed").lastLine(), "1 passed, 0 failed, 0 skipped");
     EXPECT_EQ(run("run --backend cpu64 --last-failed").exitCode, 4);
+}
+
+TEST_F(RunTest, changedLeavesOutWhatHasPassedWithTheSameInputs)
+{
+    writeCase("cases/a.toml", "a");
+    writeCase("cases/b.toml", "b");
+    writeCase("cases/c.toml", "c", "", kFails);
+    const char* const again = "run --backend cpu64 --changed";
+    EXPECT_EQ(run(again).lastLine(), "2 passed, 1 failed, 0 skipped"); // nothing is known yet
+    EXPECT_EQ(run(again).lastLine(), "0 passed, 1 failed, 0 skipped");
+    EXPECT_EQ(readRun()["unchanged"], nlohmann::json::parse("[\"a\", \"b\"]"));
+    writeCase("cases/b.toml", "b", "tags = [\"new\"]");
+    EXPECT_EQ(run(again).lastLine(), "1 passed, 1 failed, 0 skipped");
+    EXPECT_EQ(run("run a --backend cpu64,cpu32 --changed").lastLine(), "2 passed, 0 failed, 0 skipped"); // cpu32 is new
+    EXPECT_EQ(run("run a --changed --backend cpu32").exitCode, 0);
+    EXPECT_EQ(run("run a --changed --backend cpu32").lastLine(), "0 passed, 0 failed, 0 skipped");
+}
+
+TEST_F(RunTest, changedSeesOnlyTheShaderCodeThatTheVariantUses)
+{
+    const std::string shaders = CROSSRAY_SOURCE_DIR "/shaders";
+    fs::copy(shaders, folder_ / "shaders", fs::copy_options::recursive);
+    writeCase("cases/a.toml", "a", "outputs = [\"RayDirWS\"]"); // the ray alone
+    const char* const again = "run --backend cpu64,cpu32 --changed --shaders shaders";
+    EXPECT_EQ(run(again).lastLine(), "2 passed, 0 failed, 0 skipped");
+    const auto edit = [&](const std::string& file, const std::string& before, const std::string& after) {
+        std::string text = readFile(file);
+        ASSERT_NE(text.find(before), std::string::npos) << file;
+        writeFile(file, text.replace(text.find(before), before.size(), after));
+    };
+    edit("shaders/crossray/project/proxy.glsl", "\n#endif",
+         "\n// A remark.\nfloat unusedByAll(float x) { return x + 1.0; }\n\n#endif");
+    EXPECT_EQ(run(again).lastLine(), "0 passed, 0 failed, 0 skipped");
+    edit("shaders/crossray/core/reflection.glsl", "2.0", "2.5");
+    EXPECT_EQ(run(again).lastLine(), "2 passed, 0 failed, 0 skipped");
 }
 
 TEST_F(RunTest, knownFailuresMustFailAndStopAtTheFirst)
