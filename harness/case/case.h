@@ -136,10 +136,6 @@ std::vector<Case> readCaseFile(const std::filesystem::path& file, const std::map
 
 // Every *.toml below `root` in order of path, presets.toml left out; `root` itself when it is a file.
 std::vector<std::filesystem::path> findCaseFiles(const std::filesystem::path& root);
-
-// Throws InputError when two cases bear one name.
-void requireUniqueNames(std::span<const Case> cases);
-
 // One key of the format; the schema is the parser's own table.
 struct CaseKey {
     std::string table; // "" for the top level, "scene", "expect", ...

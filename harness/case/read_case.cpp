@@ -269,16 +269,4 @@ std::vector<fs::path> findCaseFiles(const fs::path& root)
     return files;
 }
 
-void requireUniqueNames(std::span<const Case> cases)
-{
-    std::map<std::string_view, const Case*> first;
-    for (const Case& testCase : cases) {
-        const auto [other, isNew] = first.emplace(testCase.name, &testCase);
-        if (!isNew) {
-            throw InputError(testCase.position, fmt::format("the name \"{}\" is taken by {}; each name once is allowed",
-                                                            testCase.name, other->second->file.string()));
-        }
-    }
-}
-
 } // namespace crossray

@@ -229,13 +229,3 @@ TEST_F(CaseReader, findsCaseFilesInOrder)
     EXPECT_EQ(messageOf([&] { findCaseFiles(folder_ / "none"); }),
               "none: the folder cannot be read: No such file or directory");
 }
-
-TEST_F(CaseReader, namesAreUniqueAcrossFiles)
-{
-    std::vector<Case> cases = readCaseFile(write("a.toml", withScene("")));
-    cases.push_back(readCaseFile(write("b.toml", withScene(""))).at(0));
-    EXPECT_EQ(messageOf([&] { requireUniqueNames(cases); }),
-              "b.toml:1:1: the name \"a/b\" is taken by a.toml; each name once is allowed");
-    cases.pop_back();
-    EXPECT_NO_THROW(requireUniqueNames(cases));
-}

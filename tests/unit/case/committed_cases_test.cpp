@@ -24,7 +24,9 @@ TEST(CommittedCases, canAllBeReadUnderTheirOwnNames)
             EXPECT_EQ(c.name.substr(0, c.name.find('[')), place);
         cases.insert(cases.end(), own.begin(), own.end());
     }
-    EXPECT_NO_THROW(requireUniqueNames(cases));
+    std::set<std::string> names;
+    for (const Case& c : cases)
+        EXPECT_TRUE(names.insert(c.name).second) << c.name << " is taken twice";
     EXPECT_GE(cases.size(), 40u);
 }
 
