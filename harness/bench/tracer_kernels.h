@@ -1,0 +1,41 @@
+// The library's tracers behind plain numbers: the unit that compiles the GLSL as C++ has a GLM of its own, so that no
+// GLM type crosses this border.
+#pragma once
+
+#include <array>
+#include <vector>
+
+namespace crossray {
+
+// A G-buffer and its camera, in float.
+struct TracerImage {
+    int width = 0, height = 0;
+    std::array<float, 16> worldFromView{}; // columns; rigid
+    float slopeX = 1, slopeY = 1;          // View.slope
+    float depthA = 0, depthB = 1;          // View.depthA, View.depthB
+    float nearDistance = 0.1f, farDistance = 100.0f;
+    bool orthographic = false, reversedDepth = true;
+    std::vector<float> deviceDepths;
+    std::vector<float> normalsWS; // 3 a pixel
+};
+
+struct KernelAnswer {
+    bool isHit = false;
+    bool isCapped = false;
+    float positionX = 0, positionY = 0;
+    float linearDepth = 0;
+    float confidence = 0;
+    int fetches = 0;
+    int iterations = 0;
+};
+
+// Makes an image the one that the calling thread traces, and builds the pyramid of one tracer for it.
+void loadPatchTracer(const TracerImage& image, float depthError);
+void loadHizTracer(const TracerImage& image);
+
+// From the surface at a pixel's centre along a direction in world space.
+KernelAnswer tracePatchRay(int x, int y, std::array<float, 3> dirWS, int maxIterations, float caution,
+                           float depthError);
+KernelAnswer traceHizRay(int x, int y, std::array<float, 3> dirWS, int maxLevel, int maxIterations, float depthBias);
+
+} // namespace crossray
