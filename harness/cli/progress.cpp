@@ -62,9 +62,11 @@ void Progress::finishBackend(const CaseResult& testCase, const BackendResult& re
     if (tallyOf(result.verdict) == Tally::kFailed) {
         // One broken shader breaks many cases; it is told once in full.
         const bool isNew = result.verdict != Verdict::kError || shownErrors_.insert(result.reason).second;
-        BackendResult shown = result;
-        if (!isNew) shown.reason = "the same error as above";
-        printText(formatFailure(testCase, shown, options_.style, options_.verbose));
+        if (!isNew) {
+            ++repeatedErrors_;
+            return;
+        }
+        printText(formatFailure(testCase, result, options_.style, options_.verbose));
     } else if (options_.verbose) {
         printText(fmt::format("{:<14} {}  {}  {:.1f} ms{}{}\n", nameOf(result.verdict), testCase.name, result.backend,
                               result.times.worker, result.reason.empty() ? "" : "  ", result.reason));
@@ -111,6 +113,12 @@ void Progress::clearBar()
     fmt::print(options_.bar, "\r\x1b[2K");
     std::fflush(options_.bar);
     barIsShown_ = false;
+}
+
+void Progress::finish()
+{
+    clearBar();
+    if (repeatedErrors_ > 0) printText(fmt::format("ERROR {} more with the errors above\n", repeatedErrors_));
 }
 
 void Progress::printText(const std::string& text)

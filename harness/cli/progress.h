@@ -36,18 +36,20 @@ class Progress : public RunObserver {
     void finishBackend(const CaseResult& testCase, const BackendResult& result) override;
     void finishCase(const CaseResult& testCase) override;
     void tick() override;
-    // Takes the bar off the terminal: the run has ended.
-    void clearBar();
+    // The run has ended: takes the bar off the terminal and says how often the errors shown came again.
+    void finish();
     // The bar's text for a terminal of this width; `seconds` since the start.
     std::string formatBar(int width, double seconds) const;
 
   private:
+    void clearBar();
     void printText(const std::string& text);
 
     ProgressOptions options_;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     std::string current_; // "case on backend"
     std::set<std::string> shownErrors_;
+    size_t repeatedErrors_ = 0;
     size_t finished_ = 0, finishedCases_ = 0;
     RunCounts counts_;
     bool barIsShown_ = false;

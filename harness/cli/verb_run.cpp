@@ -177,7 +177,7 @@ int runCases(const GlobalOptions& global, const RunOptions& options)
                 interrupted, run);
         run.workersPeakBytes = pool.peakMemory();
     }
-    progress.clearBar();
+    progress.finish();
     run.toolPeakBytes = peakMemoryOfTool();
     const Commit found = commit.get();
     run.commit = found.hash;
