@@ -1,5 +1,5 @@
 // Planar probes: the mirrored camera that captures what a plane reflects, and the look-up in its image.
-// Hooks: none. Sources: Unity HDRP planar reflection probe documentation (2018); oblique near plane: Lengyel 2005,
+// Hooks: none. Source: Unity HDRP planar reflection probe documentation (2018); oblique near plane: Lengyel 2005,
 // written here for depths stored in [0,1], standard, reversed, and with an infinite far plane.
 //
 // The mirrored camera is the camera's own, seen through the plane: no up vector is needed, so that a camera that looks
@@ -8,11 +8,9 @@
 //   kPlanarDegeneratePlane; a field of view that is not above 0 and below 180 degrees: kPlanarNoFieldOfView. The view
 //   comes back as it was;
 // - an oblique plane that the view volume never meets (the camera looks away from it): kPlanarPlaneOutOfView; the
-// projection
-//   stays;
+//   projection stays;
 // - an image of depths under an oblique projection holds no linear ones: linearDepthFromOblique gives them back, and
-// the far
-//   distance where nothing was drawn.
+//   the far distance where nothing was drawn.
 #ifndef CROSSRAY_PROBE_PLANAR_GLSL
 #define CROSSRAY_PROBE_PLANAR_GLSL
 

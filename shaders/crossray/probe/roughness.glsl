@@ -1,5 +1,5 @@
 // What roughness does to the look-up in a prefiltered environment: mip level, direction, and the probe's distance.
-// Hooks: none. Sources: Unity HDRP reflection documentation (2018) for the exponents; distance-based roughness and the
+// Hooks: none. Source: Unity HDRP reflection documentation (2018) for the exponents; distance-based roughness and the
 // dominant direction: Lagarde and de Rousiers 2014; the Built-in approximation: Unity manual and shader listing.
 //
 // Roughness is perceptual, clamped to [0,1]; NaN counts as 0. Nothing here is NaN or infinite for any input.

@@ -1,6 +1,5 @@
-// Reflection probes as URP weighs, orders and mixes them: what its manual says (`doc`) and what its code does
-// (`unity`). Hooks: none. Source: Unity URP manual, reflection probes; the public behaviour of its shaders and of
-// Forward+.
+// Reflection probes as URP weighs, orders and mixes them: what its manual says (`doc`), what its code does (`unity`).
+// Hooks: none. Source: Unity URP manual, reflection probes; the public behaviour of its shaders and of Forward+.
 //
 // Where they part: the size by which probes of equal importance are ordered (volume; squared diagonal, which overflows
 // in half precision), whether size also decides which of two probes is the stronger at a pixel (no; yes), and what the
