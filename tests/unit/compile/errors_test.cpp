@@ -113,6 +113,7 @@ TEST_F(CompileErrors, endlessIncludesEnd)
     const std::string text = errorFor("#version 450\n#include \"lib/self.glsl\"\nvoid main() {}\n");
     EXPECT_NE(text.find("includes nest deeper than 32"), std::string::npos) << text.substr(0, 400);
     EXPECT_TRUE(text.starts_with("lib/self.glsl:1:11: error: ")) << text.substr(0, 400);
+    EXPECT_EQ(text.find('\n'), std::string::npos) << "one failure is one line: " << text.substr(0, 400);
     EXPECT_LT(text.size(), 20000u);
 }
 
