@@ -185,6 +185,7 @@ int runCases(const GlobalOptions& global, const RunOptions& options)
     // Cases came in the order that suits the cores; people and diffs want one order.
     std::sort(run.cases.begin(), run.cases.end(),
               [](const CaseResult& a, const CaseResult& b) { return a.name < b.name; });
+    std::sort(run.unchanged.begin(), run.unchanged.end());
     run.exitCode = static_cast<int>(computeExitCode(run));
     writeResults(run, options);
     if (!options.validation) writePassedCases(options.output, mergePassedCases(passedBefore, run));
