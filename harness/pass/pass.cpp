@@ -1,6 +1,8 @@
 #include "harness/pass/pass.h"
 
-#include "harness/pass/params.h"
+#include "harness/pass/bindings.h"
+#include "harness/pass/pass_params.h"
+#include "harness/pass/trace_variant.h"
 
 #include <fmt/format.h>
 
@@ -11,101 +13,7 @@ namespace crossray {
 
 namespace {
 
-// Binding numbers; shaders/bindings/*.glsl.
-constexpr uint32_t kParamsBinding = 0, kDepthBinding = 1, kNormalBinding = 2, kColorBinding = 3, kMaskBinding = 4;
-constexpr uint32_t kPyramidBinding = 8, kOutputBinding = 9;
 constexpr uint32_t kGroupSize = 8; // local size of the entry shaders, both ways
-
-struct PyramidLevel {
-    int firstCell = 0, width = 0, height = 0;
-};
-
-// Level l+1 has half the cells of level l, rounded down but never below 1; the last cell of an odd side covers three.
-std::vector<PyramidLevel> layOutPyramid(int width, int height)
-{
-    std::vector<PyramidLevel> levels{{0, width, height}};
-    while (levels.back().width > 1 || levels.back().height > 1) {
-        const PyramidLevel& finer = levels.back();
-        levels.push_back({finer.firstCell + finer.width * finer.height, std::max(1, finer.width / 2),
-                          std::max(1, finer.height / 2)});
-    }
-    return levels;
-}
-
-// deviceDepth = x + y / linearDepth (perspective) or x + y * linearDepth (orthographic); always [0,1] storage.
-glm::dvec4 computeDepthTerms(const Camera& camera)
-{
-    const double nearZ = camera.nearDistance;
-    const double farZ = camera.farDistance;
-    const double range = farZ - nearZ;
-    // Far enough for any scene, small enough for half floats: HDRP's stand-in for infinity.
-    constexpr double kInfiniteFar = 65504.0;
-    if (camera.projection == ProjectionKind::kOrthographic) {
-        if (camera.depthConvention == DepthConvention::kStandard) return {-nearZ / range, 1.0 / range, nearZ, farZ};
-        return {farZ / range, -1.0 / range, nearZ, farZ};
-    }
-    switch (camera.depthConvention) {
-    case DepthConvention::kStandard:
-        return {farZ / range, -farZ * nearZ / range, nearZ, farZ};
-    case DepthConvention::kReversed:
-        return {-nearZ / range, farZ * nearZ / range, nearZ, farZ};
-    case DepthConvention::kInfiniteReversed:
-        return {0.0, nearZ, nearZ, kInfiniteFar};
-    }
-    return {};
-}
-
-glm::dvec2 computeSlope(const Camera& camera)
-{
-    const double aspect = static_cast<double>(camera.width) / camera.height;
-    const double vertical = camera.projection == ProjectionKind::kPerspective
-                                ? std::tan(glm::radians(camera.fovYDegrees) * 0.5)
-                                : camera.orthographicHeight * 0.5;
-    return {vertical * aspect, vertical};
-}
-
-template <class Params>
-Params fillPassParams(const Case& testCase, const std::vector<PyramidLevel>& levels)
-{
-    using Vec4 = decltype(Params::material);
-    using Mat4 = decltype(Params::viewFromWorld);
-    const Camera& camera = testCase.camera;
-    const Material& material = testCase.material;
-    const Projection& projection = testCase.projection;
-    const glm::dvec2 slope = computeSlope(camera);
-
-    Params params{};
-    params.viewFromWorld = Mat4(computeViewFromWorld(camera));
-    params.worldFromView = Mat4(camera.worldFromView);
-    params.clipFromView = Mat4(computeClipFromView(camera));
-    params.worldFromProxy = Mat4(glm::dmat4(projection.proxy.worldFromProxy));
-    params.imageSizeAndSlope = Vec4(glm::dvec4(camera.width, camera.height, slope.x, slope.y));
-    params.depthTerms = Vec4(computeDepthTerms(camera));
-    params.material =
-        Vec4(glm::dvec4(material.ior, material.thickness * material.thicknessMultiplier, material.roughness, 0.0));
-    params.proxyCenterWS = Vec4(glm::dvec4(projection.proxy.center, 0.0));
-    params.proxyExtents = Vec4(glm::dvec4(projection.proxy.halfExtents, projection.proxy.radius));
-    params.tracing = Vec4(glm::dvec4(projection.hiz.depthBias, projection.screenWeightDistance, 0.0, 0.0));
-    params.hizLimits = glm::ivec4(projection.hiz.minLevel, projection.hiz.maxLevel, projection.hiz.maxIterations,
-                                  static_cast<int>(levels.size()));
-    for (size_t level = 0; level < levels.size(); ++level) {
-        params.pyramidLevels[level] = {levels[level].firstCell, levels[level].width, levels[level].height, 0};
-    }
-    return params;
-}
-
-template <class Params>
-Params fillPyramidParams(const Case& testCase, const std::vector<PyramidLevel>& levels, size_t target)
-{
-    using Vec4 = decltype(Params::depthTerms);
-    const PyramidLevel& source = levels[target == 0 ? 0 : target - 1];
-    Params params{};
-    params.depthTerms = Vec4(computeDepthTerms(testCase.camera));
-    params.sourceLevel = {source.firstCell, source.width, source.height, static_cast<int>(target) - 1};
-    params.targetLevel = {levels[target].firstCell, levels[target].width, levels[target].height,
-                          static_cast<int>(target)};
-    return params;
-}
 
 BufferDesc uniformBuffer(std::vector<std::byte> bytes)
 {
@@ -139,14 +47,6 @@ uint32_t groupsFor(int size)
     return (static_cast<uint32_t>(size) + kGroupSize - 1) / kGroupSize;
 }
 
-uint32_t outputMask(const Case& testCase)
-{
-    uint32_t mask = 0;
-    for (const OutputInfo& output : testCase.outputs)
-        mask |= 1u << output.id;
-    return mask;
-}
-
 ProgramSource compileEntry(ShaderCompiler& compiler, const std::filesystem::path& shaderRoot, const std::string& entry,
                            std::map<std::string, double> specialization)
 {
@@ -155,20 +55,6 @@ ProgramSource compileEntry(ShaderCompiler& compiler, const std::filesystem::path
     options.specialization = std::move(specialization);
     CompiledShader compiled = compiler.compile(shaderRoot / entry, options);
     return {entry, options.specialization, std::move(compiled.spirv), std::move(compiled.glsl), compiled.key};
-}
-
-std::map<std::string, double> traceVariant(const Case& testCase)
-{
-    const Camera& camera = testCase.camera;
-    return {
-        {"kEffect", testCase.effect == TraceEffect::kRefraction ? 1 : 0},
-        {"kRefractionModel", static_cast<int>(testCase.material.refractionModel)},
-        {"kProjectionModel", static_cast<int>(testCase.projection.model)},
-        {"kOutputMask", outputMask(testCase)},
-        {"kOrthographic", camera.projection == ProjectionKind::kOrthographic ? 1 : 0},
-        {"kReversedDepth", camera.depthConvention == DepthConvention::kStandard ? 0 : 1},
-        {"kScreenWeightForm", static_cast<int>(testCase.projection.screenWeightForm)},
-    };
 }
 
 // Collects the pieces of a job; resources are numbered in the order in which they are added.
@@ -201,11 +87,7 @@ class JobBuilder {
                          {{"kOrthographic", isOrthographic() ? 1 : 0}, {"kReversedDepth", isReversed() ? 1 : 0}}));
         for (size_t level = 0; level < levels_.size(); ++level) {
             const Binding params = addBuffer(
-                kParamsBinding,
-                uniformBuffer(
-                    precision_ == Precision::kFloat
-                        ? bytesOf(fillPyramidParams<layout32::PyramidParams>(data_.testCase(), levels_, level))
-                        : bytesOf(fillPyramidParams<layout64::PyramidParams>(data_.testCase(), levels_, level))));
+                kParamsBinding, uniformBuffer(makePyramidParams(data_.testCase(), levels_, level, precision_)));
             job_.dispatches.push_back({job_.programs.size() - 1,
                                        {params, depth, *pyramid_},
                                        groupsFor(levels_[level].width),
@@ -218,10 +100,7 @@ class JobBuilder {
     {
         const Case& testCase = data_.testCase();
         std::vector<Binding> bindings{depth};
-        bindings.push_back(addBuffer(
-            kParamsBinding, uniformBuffer(precision_ == Precision::kFloat
-                                              ? bytesOf(fillPassParams<layout32::PassParams>(testCase, levels_))
-                                              : bytesOf(fillPassParams<layout64::PassParams>(testCase, levels_)))));
+        bindings.push_back(addBuffer(kParamsBinding, uniformBuffer(makePassParams(testCase, levels_, precision_))));
         bindings.push_back(addImage(kNormalBinding, imageFromPlane(data_.gbuffer().plane(GBufferChannel::kNormalWS))));
         if (data_.gbuffer().planes.contains(GBufferChannel::kColor)) {
             bindings.push_back(addImage(kColorBinding, imageFromPlane(data_.gbuffer().plane(GBufferChannel::kColor))));
@@ -231,7 +110,8 @@ class JobBuilder {
         const size_t planeScalars = static_cast<size_t>(camera().width) * static_cast<size_t>(camera().height) * 4;
         bindings.push_back(addBuffer(kOutputBinding, storageBuffer(planeScalars * testCase.outputs.size())));
         job_.readbacks.push_back(bindings.back().index);
-        job_.programs.push_back(compileEntry(compiler, shaderRoot, "entry/screen_trace.comp", traceVariant(testCase)));
+        job_.programs.push_back(
+            compileEntry(compiler, shaderRoot, "entry/screen_trace.comp", makeTraceVariant(testCase)));
         job_.dispatches.push_back(
             {job_.programs.size() - 1, std::move(bindings), groupsFor(camera().width), groupsFor(camera().height), 1});
     }
@@ -278,7 +158,7 @@ std::vector<Plane> readPlanes(const Case& testCase, const JobResult& result)
                                            result.readbacks.empty() ? 0 : result.readbacks[0].size(),
                                            pixels * 4 * testCase.outputs.size()));
     }
-    const uint32_t mask = outputMask(testCase);
+    const uint32_t mask = makeOutputMask(testCase);
     std::vector<Plane> planes;
     for (const OutputInfo& output : testCase.outputs) {
         const auto slot = static_cast<size_t>(std::popcount(mask & ((1u << output.id) - 1u)));

@@ -3,11 +3,12 @@
 #define BINDINGS_DEPTH_PYRAMID_GLSL
 
 #include "crossray/shared/pass_params.glsl"
+#include "bindings/binding_numbers.glsl"
 #include "bindings/variants.glsl"
 
-layout(std140, binding = 0) uniform PyramidParamsBlock { PyramidParams pyramidParams; };
-layout(binding = 1) uniform sampler2D deviceDepthImage;                   // r: [0,1]
-layout(std430, binding = 8) buffer PyramidBlock { vec2 pyramidCells[]; }; // nearest, farthest linear depth
+layout(std140, binding = kParamsBinding) uniform PyramidParamsBlock { PyramidParams pyramidParams; };
+layout(binding = kDepthBinding) uniform sampler2D deviceDepthImage; // r: [0,1]
+layout(std430, binding = kPyramidBinding) buffer PyramidBlock { vec2 pyramidCells[]; }; // nearest, farthest linear depth
 
 float fetchDeviceDepth(ivec2 pixel) { return texelFetch(deviceDepthImage, pixel, 0).r; }
 vec2 loadPyramidCell(int index) { return pyramidCells[index]; }

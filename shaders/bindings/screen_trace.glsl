@@ -1,17 +1,18 @@
-// Resources of the pass screen_trace. Bindings are unique within set 0, because the translation to OpenGL knows no sets.
+// Resources of the pass screen_trace.
 #ifndef BINDINGS_SCREEN_TRACE_GLSL
 #define BINDINGS_SCREEN_TRACE_GLSL
 
 #include "crossray/shared/pass_params.glsl"
+#include "bindings/binding_numbers.glsl"
 #include "bindings/variants.glsl"
 
-layout(std140, binding = 0) uniform PassParamsBlock { PassParams params; };
-layout(binding = 1) uniform sampler2D deviceDepthImage; // r: [0,1]
-layout(binding = 2) uniform sampler2D normalImage;      // rgb: unit normal, world space
-layout(binding = 3) uniform sampler2D colorImage;       // rgb: linear radiance
-layout(binding = 4) uniform sampler2D traceMaskImage;   // r: above 0.5 where the pixel traces a ray
-layout(std430, binding = 8) readonly buffer PyramidBlock { vec2 pyramidCells[]; };     // nearest, farthest linear depth
-layout(std430, binding = 9) writeonly buffer OutputBlock { vec4 outputValues[]; };     // plane after plane
+layout(std140, binding = kParamsBinding) uniform PassParamsBlock { PassParams params; };
+layout(binding = kDepthBinding) uniform sampler2D deviceDepthImage; // r: [0,1]
+layout(binding = kNormalBinding) uniform sampler2D normalImage; // rgb: unit normal, world space
+layout(binding = kColorBinding) uniform sampler2D colorImage; // rgb: linear radiance
+layout(binding = kMaskBinding) uniform sampler2D traceMaskImage; // r: above 0.5 where the pixel traces a ray
+layout(std430, binding = kPyramidBinding) readonly buffer PyramidBlock { vec2 pyramidCells[]; }; // nearest, farthest linear depth
+layout(std430, binding = kOutputBinding) writeonly buffer OutputBlock { vec4 outputValues[]; }; // plane after plane
 
 float fetchDeviceDepth(ivec2 pixel) { return texelFetch(deviceDepthImage, pixel, 0).r; }
 vec3 fetchNormalWS(ivec2 pixel) { return texelFetch(normalImage, pixel, 0).rgb; }

@@ -16,7 +16,7 @@ struct CpuResource {
     size_t scalarCount = 0;
 };
 
-inline constexpr uint32_t kMaxCpuBindings = 16;
+inline constexpr uint32_t kMaxCpuBindings = 32;
 
 // Bound resources by binding number; uniform blocks are bytes.
 template <class Real>

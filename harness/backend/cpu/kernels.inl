@@ -19,9 +19,7 @@ thread_local PyramidParams pyramidParams;
 #include "bindings/variants.glsl"
 #undef CROSSRAY_VARIANT
 
-// Binding numbers; shaders/bindings/*.glsl.
-constexpr uint32_t kParamsBinding = 0, kDepthBinding = 1, kNormalBinding = 2, kColorBinding = 3, kMaskBinding = 4;
-constexpr uint32_t kPyramidBinding = 8, kOutputBinding = 9;
+#include "bindings/binding_numbers.glsl"
 
 // Texels outside the image are what robust image access gives on a GPU: zero.
 const Real* texelOf(uint32_t binding, ivec2 pixel)

@@ -1,0 +1,14 @@
+// Where the passes find their resources. Unique within set 0, because the translation to OpenGL knows no sets. C++
+// reads this file, too.
+#ifndef BINDINGS_BINDING_NUMBERS_GLSL
+#define BINDINGS_BINDING_NUMBERS_GLSL
+
+const int kParamsBinding = 0;
+const int kDepthBinding = 1;
+const int kNormalBinding = 2;
+const int kColorBinding = 3;
+const int kMaskBinding = 4;
+const int kPyramidBinding = 8;
+const int kOutputBinding = 9;
+
+#endif

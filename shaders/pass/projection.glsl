@@ -1,0 +1,84 @@
+// What a pixel's ray meets: a proxy's surface or, in screen space, a surface that the depth buffer shows. kProjectionModel has the
+// tracing models of crossray/shared/outputs.glsl. Hooks: loadPyramidCell, and the block params.
+#ifndef PASS_PROJECTION_GLSL
+#define PASS_PROJECTION_GLSL
+
+#include "crossray/core/view.glsl"
+#include "crossray/project/hiz.glsl"
+#include "crossray/project/proxy.glsl"
+#include "crossray/refract/refraction.glsl"
+#include "crossray/shared/outputs.glsl"
+
+// The library's hooks for the pyramid, over one buffer of cells.
+int depthPyramidLevelCount() { return params.hizLimits.w; }
+ivec2 depthPyramidSize(int level) { return ivec2(params.pyramidLevels[level].y, params.pyramidLevels[level].z); }
+vec2 fetchDepthPyramid(ivec2 cell, int level)
+{
+    ivec4 layoutOfLevel = params.pyramidLevels[level];
+    return loadPyramidCell(layoutOfLevel.x + cell.y * layoutOfLevel.y + cell.x);
+}
+
+// The release build records nothing.
+void recordHizStep(HizStep) {}
+
+// What a pixel knows in the end; each debug mode shows a part of it.
+struct PixelAnswer {
+    int hitClass;
+    int reason;
+    vec3 rayOriginWS;
+    vec3 rayDirWS;
+    float pathLength;  // metres in the material
+    vec2 positionSS;   // of the hit, or of the end of the ray
+    float linearDepth; // of the hit, metres; 0 where there is none
+    int iterations;
+    int maxUsedLevel;
+    int intersectionKind;
+};
+
+ProxyHit projectOnProxy(vec3 originWS, vec3 dirWS)
+{
+    vec3 centerWS = params.proxyCenterWS.xyz;
+    if (kProjectionModel == kTracingModelProxyBox) {
+        return projectProxyBox(originWS, dirWS, centerWS, mat3(params.worldFromProxy), params.proxyExtents.xyz);
+    }
+    if (kProjectionModel == kTracingModelProxySphere) {
+        return projectProxySphere(originWS, dirWS, centerWS, params.proxyExtents.w);
+    }
+    return projectProxyInfinite(originWS, dirWS);
+}
+
+PixelAnswer answerByProxy(View view, RefractionExit ray)
+{
+    ProxyHit hit = projectOnProxy(ray.positionWS, ray.dirWS);
+    ScreenPosition end = projectWSToSS(view, hit.positionWS);
+    bool success = hit.hit && end.inFront;
+    int reason = hit.hit ? (end.inFront ? kHitReasonNone : kHitReasonBehindCamera) : hit.reason;
+    return PixelAnswer(success ? kHitClassHit : kHitClassMiss, reason, ray.positionWS, ray.dirWS, ray.pathLength,
+                       end.positionSS, success ? end.linearDepth : 0.0, 0, 0, 0);
+}
+
+PixelAnswer answerByHiz(View view, RefractionExit ray)
+{
+    HizSettings settings =
+        HizSettings(params.hizLimits.x, params.hizLimits.y, params.hizLimits.z, params.tracing.x);
+    TraceResult result = traceHiz(view, ray.positionWS, ray.dirWS, settings);
+    return PixelAnswer(result.hitClass, result.reason, ray.positionWS, ray.dirWS, ray.pathLength, result.positionSS,
+                       result.hitClass == kHitClassHit ? result.linearDepth : 0.0, result.iterations,
+                       result.maxUsedLevel, result.intersectionKind);
+}
+
+// What the ray of a pixel meets, by the variant's model. `positionSS` is the pixel's own, where a ray that is not cast ends.
+PixelAnswer projectRay(View view, RefractionExit ray, vec2 positionSS)
+{
+    if (ray.status != kHitReasonNone) {
+        return PixelAnswer(kHitClassNoRaycast, ray.status, ray.positionWS, ray.dirWS, ray.pathLength, positionSS, 0.0, 0,
+                           0, 0);
+    }
+    if (kProjectionModel == kTracingModelHiz) return answerByHiz(view, ray);
+    if (kProjectionModel != kTracingModelNone) return answerByProxy(view, ray);
+    // Only the ray is asked for: nothing is cast, so nothing is hit or missed.
+    return PixelAnswer(kHitClassNoRaycast, kHitReasonNone, ray.positionWS, ray.dirWS, ray.pathLength, positionSS,
+                       0.0, 0, 0, 0);
+}
+
+#endif

@@ -1,0 +1,51 @@
+// The debug modes as raw planes, each only where the variant asks for it. Hooks: those of pass/output_slots.glsl.
+#ifndef PASS_STORE_OUTPUTS_GLSL
+#define PASS_STORE_OUTPUTS_GLSL
+
+#include "crossray/core/ray_ndc.glsl"
+#include "pass/output_slots.glsl"
+#include "pass/pixel_color.glsl"
+#include "pass/projection.glsl"
+
+void storeAnswer(View view, ivec2 pixel, PixelAnswer answer, ScreenColor screen)
+{
+    bool hit = answer.hitClass == kHitClassHit;
+    if (wantsOutput(kOutputColor)) storeOutput(kOutputColor, pixel, vec4(screen.color * screen.weight, 0.0));
+    if (wantsOutput(kOutputRayDirWS)) storeOutput(kOutputRayDirWS, pixel, vec4(answer.rayDirWS, 0.0));
+    if (wantsOutput(kOutputHitDepth)) storeOutput(kOutputHitDepth, pixel, vec4(answer.linearDepth, 0.0, 0.0, 0.0));
+    if (wantsOutput(kOutputHitSuccess)) {
+        storeOutput(kOutputHitSuccess, pixel, vec4(float(answer.hitClass), 0.0, 0.0, 0.0));
+    }
+    if (wantsOutput(kOutputHitReason)) {
+        storeOutput(kOutputHitReason, pixel, vec4(float(answer.reason), 0.0, 0.0, 0.0));
+    }
+    if (wantsOutput(kOutputTracingModel)) {
+        storeOutput(kOutputTracingModel, pixel, vec4(float(kProjectionModel), 0.0, 0.0, 0.0));
+    }
+    if (wantsOutput(kOutputPositionNDC)) {
+        storeOutput(kOutputPositionNDC, pixel, vec4(positionNDCFromSS(view, answer.positionSS), 0.0, 0.0));
+    }
+    if (wantsOutput(kOutputRayDirNDC)) {
+        storeOutput(kOutputRayDirNDC, pixel, vec4(computeRayDirNDC(view, answer.rayOriginWS, answer.rayDirWS), 0.0));
+    }
+    if (wantsOutput(kOutputIterationCount)) {
+        storeOutput(kOutputIterationCount, pixel, vec4(float(answer.iterations), 0.0, 0.0, 0.0));
+    }
+    if (wantsOutput(kOutputMaxUsedMipLevel)) {
+        storeOutput(kOutputMaxUsedMipLevel, pixel, vec4(float(answer.maxUsedLevel), 0.0, 0.0, 0.0));
+    }
+    if (wantsOutput(kOutputIntersectionKind)) {
+        storeOutput(kOutputIntersectionKind, pixel, vec4(float(answer.intersectionKind), 0.0, 0.0, 0.0));
+    }
+    if (wantsOutput(kOutputHitWeight)) storeOutput(kOutputHitWeight, pixel, vec4(screen.weight, 0.0, 0.0, 0.0));
+    if (wantsOutput(kOutputSampledColor)) storeOutput(kOutputSampledColor, pixel, vec4(screen.color, 0.0));
+    if (wantsOutput(kOutputHitPositionSS)) {
+        storeOutput(kOutputHitPositionSS, pixel, vec4(hit ? answer.positionSS : vec2(0.0, 0.0), 0.0, 0.0));
+    }
+    if (wantsOutput(kOutputPathLength)) {
+        storeOutput(kOutputPathLength, pixel, vec4(answer.pathLength, 0.0, 0.0, 0.0));
+    }
+    if (wantsOutput(kOutputRayOriginWS)) storeOutput(kOutputRayOriginWS, pixel, vec4(answer.rayOriginWS, 0.0));
+}
+
+#endif
