@@ -1,6 +1,6 @@
-// A cubemap as an image: what a reflection probe or a sky shows by direction. Faces in the order +x, -x, +y, -y, +z, -z;
-// row 0 of each face is at v = 0 and texel (x, y) has its centre at u = (x + 0.5) / size, v = (y + 0.5) / size, as the
-// cube map tables of OpenGL and Vulkan have it (shaders/crossray/probe/cubemap.glsl).
+// A cubemap as an image: what a reflection probe or a sky shows by direction. Faces in the order +x, -x, +y, -y, +z,
+// -z; row 0 of each face is at v = 0 and texel (x, y) has its centre at u = (x + 0.5) / size, v = (y + 0.5) / size, as
+// the cube map tables of OpenGL and Vulkan have it (shaders/crossray/probe/cubemap.glsl).
 #pragma once
 
 #include <glm/glm.hpp>
@@ -8,11 +8,13 @@
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
+#include <filesystem>
 #include <vector>
 
 namespace crossray {
 
 inline constexpr int kCubeFaces = 6;
+inline constexpr int kMaxCubeSize = 2048; // texels a side
 
 // Linear RGB radiance. Level l has max(1, size >> l) texels a side; level 0 first.
 struct Cubemap {
@@ -47,5 +49,30 @@ struct Cubemap {
         return levels[static_cast<size_t>(level)][index(level, face, x, y)];
     }
 };
+
+// Throws InputError unless the size is a power of two, 1 to kMaxCubeSize: of what is captured, baked and read.
+void requireCubeSize(int size);
+
+struct CubeFacePosition {
+    int face = 0;
+    glm::dvec2 uv{0.5}; // [0,1] over the face: u to the right, v down
+};
+
+// Unit direction of a point of a face.
+glm::dvec3 computeCubeDirection(int face, const glm::dvec2& uv);
+// Where a direction of any length above 0 points to. Of equal components z wins over y, and y over x.
+CubeFacePosition findCubePosition(const glm::dvec3& dir);
+// The texel that a direction of any length above 0 falls into.
+const glm::dvec3& nearestTexel(const Cubemap& cubemap, const glm::dvec3& dir, int level = 0);
+
+// Replaces all levels above 0 by means of 2x2 texels, each within its face, down to 1x1. The size is a power of two.
+void buildMipLevels(Cubemap& cubemap);
+
+// A cubemap file: OpenEXR with either one image (channels R, G and B, whatever the part's name), the six faces below
+// one another in their order, from which the levels are built; or such images as the parts Level0, Level1 and so on,
+// the whole chain down to 1x1. Throws InputError (file: what, what is allowed) on any other shape or size.
+Cubemap readCubemap(const std::filesystem::path& file);
+// All levels, a part each, rounded to float. Written aside and renamed.
+void writeCubemap(const std::filesystem::path& file, const Cubemap& cubemap);
 
 } // namespace crossray
