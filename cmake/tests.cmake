@@ -54,7 +54,8 @@ if(TARGET crossray_scene)
   set_source_files_properties(tests/shader/yardstick/hiz.cpp PROPERTIES COMPILE_OPTIONS -fsingle-precision-constant)
 endif()
 # And as GLSL.
-crossray_test_program(test_shader_glsl SOURCES tests/shader/glsl/library_test.cpp USES crossray_compile)
+file(GLOB glsl_test_sources CONFIGURE_DEPENDS tests/shader/glsl/*_test.cpp)
+crossray_test_program(test_shader_glsl SOURCES ${glsl_test_sources} USES crossray_compile)
 
 # The binary from outside.
 file(GLOB cli_test_sources CONFIGURE_DEPENDS tests/cli/*.cpp)
@@ -63,3 +64,10 @@ if(cli_test_sources AND TARGET crossray)
   target_link_libraries(test_program PRIVATE nlohmann_json::nlohmann_json pugixml::pugixml)
   add_dependencies(test_program crossray)
 endif()
+
+# The installed library, as somebody else's project builds with it.
+add_test(NAME consumer.buildsAShaderFromTheInstalledLibrary
+         COMMAND ${CMAKE_COMMAND} -D BUILD=${CMAKE_BINARY_DIR} -D CONSUMER=${CMAKE_SOURCE_DIR}/tests/consumer
+                 -D SCRATCH=${CMAKE_BINARY_DIR}/consumer -D VERSION=${PROJECT_VERSION}
+                 -P ${CMAKE_SOURCE_DIR}/tests/consumer/check.cmake)
+set_tests_properties(consumer.buildsAShaderFromTheInstalledLibrary PROPERTIES TIMEOUT 120)
