@@ -175,6 +175,43 @@ TEST(ShaderHiz, EndsSayWhy)
     }
 }
 
+TEST(ShaderHiz, ARayIntoItsOwnSurfaceDoesNotHitIt)
+{
+    // A refracted ray that starts on the floor and goes under it, in every direction: hidden from the start.
+    const View view = makeView(vec2(64, 64), kHalfFov, Real(0.1), 100, 1);
+    renderScene(view, {plane({0, -1, 0}, {0, 1, 0})});
+    for (double place : {0.5, 0.99}) { // in its pixel
+        for (int y = 40; y < 64; y += 3) {
+            const PrimaryRay look = makePrimaryRay(view, 20 + place, y + place);
+            const vec3 origin = fromVec(look.origin + look.dir * (-1 / look.dir.y));
+            for (int i = 0; i < 32; ++i) {
+                const Real angle = static_cast<Real>(i) * Real(0.39269908169872414);
+                const vec3 dir = direction(std::cos(angle), i < 16 ? Real(-0.5) : Real(-0.01), std::sin(angle));
+                const TraceResult r = traceHiz(view, origin, dir, HizSettings(0, 9, 999, 0));
+                EXPECT_EQ(r.hitClass, kHitClassUnknown) << place << " " << y << " " << i;
+                EXPECT_EQ(r.reason, kHitReasonBehindSurface) << place << " " << y << " " << i;
+            }
+        }
+    }
+}
+
+TEST(ShaderHiz, FindsHitsInTheCornersOfTheLastPixels)
+{
+    // A wall that comes nearer to the right: in the last column it is nearer than the depth of the pixel's centre says.
+    const View view = makeView(vec2(16, 16), kHalfFov, Real(0.1), 100, 1);
+    const Shapes wall{plane({0, 0, -6}, {0.8, 0, 1})};
+    renderScene(view, wall);
+    for (int i = 0; i < 20; ++i) {
+        const vec2 targetSS(Real(15.55) + static_cast<Real>(i) * Real(0.02),
+                            Real(4.3) + static_cast<Real>(i) * Real(0.3));
+        const PrimaryRay look = makePrimaryRay(view, static_cast<double>(targetSS.x), static_cast<double>(targetSS.y));
+        const vec3 target = fromVec(shaderTest::cast(wall, look.origin, look.dir)->position);
+        const TraceResult r = traceHiz(view, vec3(0, 0, -3), target - vec3(0, 0, -3), HizSettings(0, 9, 999, 0));
+        EXPECT_EQ(r.hitClass, kHitClassHit) << targetSS.x;
+        EXPECT_NEAR(r.positionSS.x, targetSS.x, Real(1e-3));
+    }
+}
+
 TEST(ShaderHiz, ThicknessDecidesWhatPassesBehind)
 {
     // A pole before a wall; a ray runs to the wall half a metre behind the pole.

@@ -63,7 +63,10 @@ void recordHizStep(HizStep step);
 // Ray and surface within this share of their depth are one at the start: what moving a position to world space and back
 // costs.
 const float kHizStartTolerance = 0.000244140625; // 2^-12
-const int kHizRuns = -1;                         // in place of a reason, while the march goes on
+// Share of that by which a ray may sink into the plane of its start, within its cell or a pixel, by rounding alone: it
+// has a direction, and no gap, to lose.
+const float kHizSinkTolerance = 0.015625; // 2^-6
+const int kHizRuns = -1;                  // in place of a reason, while the march goes on
 
 struct HizState {
     float s;     // place on the ray
@@ -190,8 +193,12 @@ HizTest testHizPlane(ScreenFrame frame, ScreenRay ray, HizState state, HizCell c
     float sCrossing = clamp(crossing, choose(isBehind, 0.0, state.s), cell.leave);
     float sHit = choose(isCrossing, sCrossing, state.s);
     float hitAffine = choose(isCrossing, planeAffine + planeRate * (sCrossing - state.s), rayAffine);
-    bool inFront = leave >= -choose(isBehind, 0.0, noise);
-    bool isClose = leave <= tolerance && !isBehind;
+    // A ray that sinks into the plane on which it stands is behind it at once, be the gap as small as it may.
+    // Judged over a pixel at least: a ray may start at its cell's border.
+    bool sinksAtStart = rate * max(cell.leave - state.s, ray.pixelLength) < -kHizSinkTolerance * tolerance;
+    bool isInFront = leave >= -choose(isBehind, 0.0, noise);
+    bool inFront = isInFront && !(state.isStart && sinksAtStart);
+    bool isClose = leave <= tolerance && inFront;
     bool stands = !(state.isStart && isOffPlane);
     bool keepsClose = isClose && stands;
     return HizTest(choose(hit, kIntersectionDepth, kIntersectionCell), sHit, hitAffine, inFront,
@@ -201,12 +208,16 @@ HizTest testHizPlane(ScreenFrame frame, ScreenRay ray, HizState state, HizCell c
 HizTest testHizCell(ScreenFrame frame, ScreenRay ray, HizState state, HizCell cell, HizSettings settings)
 {
     bool isSky = isSkyDepth(cell.depths.x);
-    bool isNearer = cell.rayFarthest < cell.depths.x;
-    bool isClear = isSky || isNearer;
-    bool isWellNearer = cell.rayFarthest * (1.0 + kHizStartTolerance) < cell.depths.x;
-    bool isWellClear = isSky || isWellNearer;
+    // Cells show the depth of their pixels' centres: a ray just behind a sloping surface may pass nearer than that, and
+    // only the plane tells that it has come out, or where it starts. On the surface of the start a nearer ray may be a
+    // rounding.
+    float margin = choose(state.attached, 1.0 + kHizStartTolerance, 1.0);
+    bool isNearer = cell.rayFarthest * margin < cell.depths.x;
+    bool isTrusted = state.inFront && !state.isStart;
+    bool isNearerInFront = isNearer && isTrusted;
+    bool isClear = isSky || isNearerInFront;
     bool isDeeper = cell.rayNearest > cell.depths.y + settings.depthBias;
-    bool isPassed = isDeeper && !(state.inFront || isClear);
+    bool isPassed = isDeeper && !(state.inFront || isSky);
     // Before it leaves the image the ray is tested against the last pixel's plane: after it comes no cell that would
     // see that the ray has crossed it in the pixel's corner.
     bool leavesUnseen = cell.leavesImage && !isSky;
@@ -221,7 +232,7 @@ HizTest testHizCell(ScreenFrame frame, ScreenRay ray, HizState state, HizCell ce
     closer = choose(isClear, cell.leave, closer);
 
     bool isHidden = isPassed && !state.isStart;
-    bool staysAttached = state.attached && !isWellClear;
+    bool staysAttached = state.attached && !isClear;
     bool keepsAttached = staysAttached && !isPassed;
     bool inFront = isClear || (state.inFront && !isSkipped);
     HizTest test =
