@@ -19,6 +19,9 @@ void buildCamera(const TableReader& top, Case& testCase);
 void buildRecorded(const TableReader& top, Case& testCase);
 void buildMaterial(const TableReader& top, Case& testCase);
 void buildProjection(const TableReader& top, Case& testCase);
+void buildProbes(const TableReader& top, Case& testCase);
+void buildSky(const TableReader& top, Case& testCase);       // after buildScene
+void buildHierarchy(const TableReader& top, Case& testCase); // after buildProbes
 void buildExpectations(const Node& root, const ToleranceLookup& findTolerance, Case& testCase);
 void buildKnownFailures(const Node& root, Case& testCase);
 

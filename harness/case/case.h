@@ -4,6 +4,7 @@
 
 #include "harness/base/error.h"
 #include "harness/base/outputs.h"
+#include "harness/case/probe.h"
 #include "harness/judge/judge.h"
 #include "harness/scene/gbuffer.h"
 #include "harness/scene/truth.h"
@@ -119,6 +120,11 @@ struct Case {
     TraceEffect effect = TraceEffect::kReflection;
     Material material;
     Projection projection;
+    std::vector<Probe> probes;
+    ProbeProfile probeProfile = ProbeProfile::kHdrp;
+    DominantDirection dominantDirection = DominantDirection::kSquared;
+    SkySettings sky;
+    unsigned hierarchy = 0;          // of HierarchyTier; 0: the projection's colour alone
     std::vector<OutputInfo> outputs; // all that is written: the expected ones and those of `outputs`
     std::vector<Expectation> expectations;
     std::vector<std::string> backends; // empty: all

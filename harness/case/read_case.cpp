@@ -198,6 +198,9 @@ Case buildCase(const Node& root, const fs::path& file, const Node* presets)
     } else {
         buildRecorded(top, testCase);
     }
+    buildProbes(top, testCase);
+    buildSky(top, testCase);
+    buildHierarchy(top, testCase);
     buildExpectations(
         root, [&](const Node& name) -> const Node& { return findPreset(presets, "tolerance", name); }, testCase);
     buildKnownFailures(root, testCase);

@@ -33,6 +33,8 @@ std::string_view nameOf(KeyType type)
         return "list of 2 integers";
     case KeyType::kVec3:
         return "list of 3 numbers";
+    case KeyType::kVec3List:
+        return "list of lists of 3 numbers";
     case KeyType::kExtents:
         return "list of 2 or 3 numbers";
     case KeyType::kRotation:
@@ -78,10 +80,13 @@ const TableSpec* findTableSpec(std::string_view table)
     return found == tables.end() ? nullptr : &found->second;
 }
 
-// [[scene.primitive]] and `primitives` hold the same tables; a rotation's table is one format wherever it stands.
+// [[scene.primitive]] and `primitives` hold the same tables; a rotation's, an environment's and a gradient's table is
+// one format wherever it stands.
 std::string subTableOf(const KeySpec& spec)
 {
     if (spec.type == KeyType::kRotation) return "rotation";
+    if (spec.key == "environment") return "environment";
+    if (spec.key == "gradient") return "scene.sky";
     return spec.path() == "scene.primitive" ? "scene.primitives" : spec.path();
 }
 
@@ -179,6 +184,11 @@ void checkValue(const Node& node, const KeySpec& spec)
         break;
     case KeyType::kVec3:
         checkNumbers(node, spec, 3, 3, false);
+        break;
+    case KeyType::kVec3List:
+        if (kind != NodeKind::kList) refuseType(node, spec);
+        for (const Node& item : node.items)
+            checkNumbers(item, spec, 3, 3, false);
         break;
     case KeyType::kExtents:
         checkNumbers(node, spec, 2, 3, false);

@@ -22,6 +22,7 @@ enum class KeyType {
     kDate, // YYYY-MM-DD, quoted or bare
     kSize, // [width, height]
     kVec3,
+    kVec3List, // lists of 3 numbers, as many as the builder wants
     kExtents,  // 2 or 3 numbers, infinity is expressed by leaving the key out
     kRotation, // Euler degrees, or a table of axis and degrees
     kStringList,

@@ -50,6 +50,9 @@ const std::vector<std::string>& backendNames();
 // The tables of schema_table_trace.cpp: [material], [projection], [[expect]], [expand], [[known_failure]].
 std::vector<KeySpec> materialKeys();
 std::vector<KeySpec> projectionKeys();
+// Those of schema_table_probe.cpp: [[probe]] with [environment], [sky].
+std::vector<KeySpec> probeKeys();
+std::vector<KeySpec> skyKeys();
 std::vector<KeySpec> expectKeys();
 std::vector<KeySpec> otherKeys();
 

@@ -51,6 +51,22 @@ std::vector<KeySpec> topKeys()
         Key("", "gbuffer", kTable).withoutIt("none; this or scene is required").says("A G-buffer of another renderer."),
         Key("", "material", kTable).withoutIt("all defaults").says("The material of the traced pixels."),
         Key("", "projection", kTable).withoutIt("all defaults").says("How the ray finds its hit."),
+        Key("", "hierarchy", kChoiceList)
+            .oneOf({"screen", "probes", "sky"})
+            .withoutIt("the projection's colour alone")
+            .says("Tiers that are asked in turn: each takes its weight, what is left goes on."),
+        Key("", "probe", kTableList).byDefault("[]").says("Reflection probes, at most 8."),
+        Key("", "probe_profile", kChoice)
+            .oneOf({"hdrp"})
+            .byDefault("\"hdrp\"")
+            .says("Pipeline whose rules order, weigh and read the probes."),
+        Key("", "dominant_direction", kChoice)
+            .oneOf({"off", "plain", "squared"})
+            .byDefault("\"squared\"")
+            .says(
+                "Rough reflections are read nearer to the normal: not at all, by N.V, or by its square as HDRP's code "
+                "has it."),
+        Key("", "sky", kTable).withoutIt("all defaults").says("The hierarchy's last tier."),
         Key("", "expect", kTableList).required().says("What the outputs are held to."),
         Key("", "expand", kTable)
             .withoutIt("none")
@@ -221,7 +237,7 @@ std::span<const KeySpec> keySpecs()
     static const std::vector<KeySpec> specs = [] {
         std::vector<KeySpec> all;
         for (auto* group : {topKeys, cameraKeys, sceneKeys, rotationKeys, gbufferKeys, materialKeys, projectionKeys,
-                            expectKeys, otherKeys}) {
+                            probeKeys, skyKeys, expectKeys, otherKeys}) {
             std::vector<KeySpec> keys = group();
             all.insert(all.end(), std::make_move_iterator(keys.begin()), std::make_move_iterator(keys.end()));
         }

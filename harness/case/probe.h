@@ -1,0 +1,93 @@
+// What a case says about reflection probes and the sky: [[probe]], [sky] and the environments that both show.
+#pragma once
+
+#include "harness/scene/scene.h"
+
+#include <glm/glm.hpp>
+
+#include <array>
+#include <optional>
+#include <variant>
+#include <vector>
+
+namespace crossray {
+
+// The values are those of shaders/crossray/probe/shapes.glsl.
+enum class VolumeShape { kInfinite = 1, kBox = 2, kSphere = 3 };
+
+enum class ProbeKind { kReflection = 0 };
+
+// Which pipeline's rules weigh and read the probes.
+enum class ProbeProfile { kHdrp = 0 };
+
+// How the middle of a rough reflection's lobe is found: not at all; with the cosine N.V as it is; with its square, as
+// HDRP's code has it.
+enum class DominantDirection { kOff = 0, kPlain = 1, kSquared = 2 };
+
+// What an environment's cubemap holds. Every level of the chain below the first is the mean of the finer one's texels,
+// but for LevelColors.
+struct SolidColor {
+    glm::dvec3 color{0.0};
+};
+struct FaceColors {
+    std::array<glm::dvec3, 6> colors{}; // +x -x +y -y +z -z
+};
+struct LevelColors {
+    std::vector<glm::dvec3> colors; // one a level, from the finest; the last goes on
+};
+struct GradientColors {
+    Sky sky; // about the scene's up
+};
+using EnvironmentContent = std::variant<SolidColor, FaceColors, LevelColors, GradientColors>;
+
+struct Environment {
+    EnvironmentContent content;
+    int size = 16; // texels a side of the finest level; the chain ends at one texel
+};
+
+// Rotated, not scaled. A box has half extents; a sphere's radius is in x.
+struct ProbeVolume {
+    VolumeShape shape = VolumeShape::kInfinite;
+    glm::dvec3 center{0.0};
+    glm::dmat3 worldFromVolume{1.0};
+    glm::dvec3 halfExtents{0.0}; // metres
+};
+
+struct FaceDistances { // metres inwards from the faces; a sphere's is positive.x
+    glm::dvec3 positive{0.0};
+    glm::dvec3 negative{0.0};
+};
+
+struct Probe {
+    ProbeKind kind = ProbeKind::kReflection;
+    ProbeVolume influence; // box or sphere
+    FaceDistances blend;
+    FaceDistances blendNormal;
+    glm::dvec3 facePositive{1.0}; // [0,1]: how far the box's faces let reflections through
+    glm::dvec3 faceNegative{1.0};
+    ProbeVolume proxy; // of the influence's shape, or infinite
+    double minProjectionDistance = 0.0;
+    glm::dvec3 capturePosition{0.0};
+    double weight = 1.0;
+    double multiplier = 1.0;
+    int importance = 1;
+    bool distanceBasedRoughness = true;
+    Environment environment;
+};
+
+enum class SkyModel { kNone = 0, kGradient = 1, kCubemap = 2 };
+
+// The last tier of a hierarchy.
+struct SkySettings {
+    SkyModel model = SkyModel::kGradient;
+    Sky gradient; // that of the scene unless given
+    std::optional<Environment> environment;
+};
+
+// Which tiers answer; the bits of kHierarchy in shaders/bindings/variants.glsl. None: the projection's colour alone.
+enum HierarchyTier : unsigned { kTierScreen = 1, kTierProbes = 2, kTierSky = 4 };
+
+inline constexpr int kMostProbes = 8;
+inline constexpr int kLargestEnvironment = 512; // texels a side
+
+} // namespace crossray

@@ -1,0 +1,148 @@
+// Reflection probes and the sky: [[probe]], [sky] and [environment].
+#include "harness/case/probe.h"
+#include "harness/case/schema_key.h"
+
+namespace crossray {
+
+using enum KeyType;
+
+namespace {
+
+std::vector<KeySpec> influenceKeys()
+{
+    const auto distances = [](std::string_view key, std::string_view summary) {
+        return Key("probe.influence", key, kVec3).atLeast(0).withoutIt("all faces as without sign").says(summary);
+    };
+    const auto faces = [](std::string_view key, std::string_view summary) {
+        return Key("probe.influence", key, kVec3).atLeast(0).atMost(1).byDefault("[1, 1, 1]").says(summary);
+    };
+    return {
+        Key("probe.influence", "shape", kChoice).oneOf({"box", "sphere"}).required().says("Shape of the volume."),
+        Key("probe.influence", "center", kVec3).byDefault("[0, 0, 0]").says("World space, metres."),
+        Key("probe.influence", "rotation", kRotation)
+            .withoutIt("none")
+            .says("World from influence: Euler degrees [x, y, z], or { axis, degrees }."),
+        Key("probe.influence", "half_extents", kVec3)
+            .atLeast(0)
+            .withoutIt("required by box")
+            .says("Along the volume's own axes, metres."),
+        Key("probe.influence", "radius", kNumber).atLeast(0).withoutIt("required by sphere").says("Metres."),
+        Key("probe.influence", "blend", kNumber)
+            .atLeast(0)
+            .byDefault("0.0")
+            .says("Metres inwards over which the weight rises from 0 to 1."),
+        distances("blend_positive", "Box: the same for the faces at +x, +y, +z, each its own."),
+        distances("blend_negative", "Box: for the faces at -x, -y, -z."),
+        Key("probe.influence", "blend_normal", kNumber)
+            .atLeast(0)
+            .byDefault("0.0")
+            .says("Metres inwards to the blend-normal volume, outside which the surface's normal counts."),
+        distances("blend_normal_positive", "Box: the same for the faces at +x, +y, +z, each its own."),
+        distances("blend_normal_negative", "Box: for the faces at -x, -y, -z."),
+        faces("face_positive", "Box: share of the reflections towards +x, +y, +z that is let through."),
+        faces("face_negative", "Box: share of those towards -x, -y, -z."),
+    };
+}
+
+std::vector<KeySpec> proxyKeys()
+{
+    return {
+        Key("probe.proxy", "shape", kChoice)
+            .oneOf({"box", "sphere", "infinite"})
+            .required()
+            .says("That of the influence, or infinite."),
+        Key("probe.proxy", "center", kVec3).withoutIt("the influence's").says("World space, metres."),
+        Key("probe.proxy", "rotation", kRotation)
+            .withoutIt("the influence's")
+            .says("World from proxy: Euler degrees [x, y, z], or { axis, degrees }."),
+        Key("probe.proxy", "half_extents", kVec3)
+            .atLeast(0)
+            .withoutIt("the influence's")
+            .says("Along the proxy's own axes, metres."),
+        Key("probe.proxy", "radius", kNumber).atLeast(0).withoutIt("the influence's").says("Metres."),
+        Key("probe.proxy", "min_distance", kNumber)
+            .atLeast(0)
+            .atMost(65504)
+            .byDefault("0.0")
+            .says("Metres; nearer hits are taken as being that far."),
+    };
+}
+
+std::vector<KeySpec> environmentKeys()
+{
+    return {
+        Key("environment", "solid", kVec3)
+            .atLeast(0)
+            .withoutIt("one content is required")
+            .says("Content: one linear RGB radiance."),
+        Key("environment", "faces", kVec3List)
+            .atLeast(0)
+            .allowed("6 colours: +x, -x, +y, -y, +z, -z")
+            .withoutIt("one content is required")
+            .says("Content: a radiance a face."),
+        Key("environment", "levels", kVec3List)
+            .atLeast(0)
+            .allowed("1 colour or more, the finest level's first")
+            .withoutIt("one content is required")
+            .says("Content: a radiance a mip level; the last goes on."),
+        Key("environment", "gradient", kTable)
+            .withoutIt("one content is required")
+            .says("Content: keys of [scene.sky], about the scene's up."),
+        Key("environment", "size", kInteger)
+            .atLeast(1)
+            .atMost(kLargestEnvironment)
+            .byDefault("16")
+            .says("Texels a side of the finest level; the mip chain ends at one texel."),
+    };
+}
+
+} // namespace
+
+std::vector<KeySpec> probeKeys()
+{
+    std::vector<KeySpec> keys{
+        Key("probe", "kind", kChoice).oneOf({"reflection"}).byDefault("\"reflection\"").says("A cubemap."),
+        Key("probe", "influence", kTable).required().says("Where the probe counts."),
+        Key("probe", "proxy", kTable)
+            .withoutIt("infinite")
+            .says("What stands for the surroundings: reflections are projected on it."),
+        Key("probe", "capture_position", kVec3)
+            .withoutIt("the influence's center")
+            .says("Where the environment was seen from, world space, metres."),
+        Key("probe", "weight", kNumber)
+            .atLeast(0)
+            .atMost(1000)
+            .byDefault("1.0")
+            .says("Factor; above 1 it counts as 1."),
+        Key("probe", "multiplier", kNumber).atLeast(0).atMost(65504).byDefault("1.0").says("Factor on the colour."),
+        Key("probe", "importance", kInteger)
+            .atLeast(-32768)
+            .atMost(32767)
+            .byDefault("1")
+            .says("Order among probes where the profile goes by it; HDRP does not."),
+        Key("probe", "distance_based_roughness", kBoolean)
+            .byDefault("true")
+            .says("Sharper where the reflecting surface is nearer to what it reflects than the capture was."),
+        Key("probe", "environment", kTable).required().says("What the probe shows; keys of [environment]."),
+    };
+    for (std::vector<KeySpec> group : {influenceKeys(), proxyKeys(), environmentKeys()}) {
+        keys.insert(keys.end(), std::make_move_iterator(group.begin()), std::make_move_iterator(group.end()));
+    }
+    return keys;
+}
+
+std::vector<KeySpec> skyKeys()
+{
+    return {
+        Key("sky", "model", kChoice)
+            .oneOf({"none", "gradient", "cubemap"})
+            .byDefault("\"gradient\"")
+            .says("What the last tier of the hierarchy shows; none gives nothing."),
+        Key("sky", "gradient", kTable)
+            .withoutIt("that of [scene.sky]")
+            .says("Keys of [scene.sky], about the scene's up."),
+        Key("sky", "environment", kTable).withoutIt("required by cubemap").says("Keys of [environment]."),
+    };
+}
+
+} // namespace crossray
