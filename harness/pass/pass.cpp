@@ -2,6 +2,7 @@
 
 #include "harness/pass/bindings.h"
 #include "harness/pass/pass_params.h"
+#include "harness/pass/pixel_record.h"
 #include "harness/pass/trace_variant.h"
 
 #include <fmt/format.h>
@@ -96,11 +97,14 @@ class JobBuilder {
         }
     }
 
-    void addTrace(ShaderCompiler& compiler, const std::filesystem::path& shaderRoot, const Binding& depth)
+    // With a query the trace records that pixel, and writes no plane.
+    void addTrace(ShaderCompiler& compiler, const std::filesystem::path& shaderRoot, const Binding& depth,
+                  const std::optional<PixelQuery>& query)
     {
         const Case& testCase = data_.testCase();
         std::vector<Binding> bindings{depth};
-        bindings.push_back(addBuffer(kParamsBinding, uniformBuffer(makePassParams(testCase, levels_, precision_))));
+        bindings.push_back(
+            addBuffer(kParamsBinding, uniformBuffer(makePassParams(testCase, levels_, precision_, query))));
         bindings.push_back(addImage(kNormalBinding, imageFromPlane(data_.gbuffer().plane(GBufferChannel::kNormalWS))));
         if (data_.gbuffer().planes.contains(GBufferChannel::kColor)) {
             bindings.push_back(addImage(kColorBinding, imageFromPlane(data_.gbuffer().plane(GBufferChannel::kColor))));
@@ -108,12 +112,14 @@ class JobBuilder {
         bindings.push_back(addImage(kMaskBinding, makeTraceMask()));
         if (pyramid_) bindings.push_back(*pyramid_);
         const size_t planeScalars = static_cast<size_t>(camera().width) * static_cast<size_t>(camera().height) * 4;
-        bindings.push_back(addBuffer(kOutputBinding, storageBuffer(planeScalars * testCase.outputs.size())));
+        bindings.push_back(query ? addBuffer(kRecordBinding, storageBuffer(countRecordScalars(query->stepCapacity)))
+                                 : addBuffer(kOutputBinding, storageBuffer(planeScalars * testCase.outputs.size())));
         job_.readbacks.push_back(bindings.back().index);
-        job_.programs.push_back(
-            compileEntry(compiler, shaderRoot, "entry/screen_trace.comp", makeTraceVariant(testCase)));
-        job_.dispatches.push_back(
-            {job_.programs.size() - 1, std::move(bindings), groupsFor(camera().width), groupsFor(camera().height), 1});
+        std::map<std::string, double> variant = makeTraceVariant(testCase);
+        if (query) variant["kRecordPixel"] = 1;
+        job_.programs.push_back(compileEntry(compiler, shaderRoot, "entry/screen_trace.comp", std::move(variant)));
+        job_.dispatches.push_back({job_.programs.size() - 1, std::move(bindings), query ? 1 : groupsFor(camera().width),
+                                   query ? 1 : groupsFor(camera().height), 1});
     }
 
     Job take() { return std::move(job_); }
@@ -137,17 +143,34 @@ class JobBuilder {
     Job job_;
 };
 
-} // namespace
-
-Job buildJob(const CaseData& data, ShaderCompiler& compiler, const std::filesystem::path& shaderRoot,
-             Precision precision)
+Job buildTraceJob(const CaseData& data, ShaderCompiler& compiler, const std::filesystem::path& shaderRoot,
+                  Precision precision, const std::optional<PixelQuery>& query)
 {
     JobBuilder builder(data, precision);
     const Binding depth =
         builder.addImage(kDepthBinding, imageFromPlane(data.gbuffer().plane(GBufferChannel::kDeviceDepth)));
     if (data.testCase().projection.model == ProjectionModel::kHiz) builder.addPyramid(compiler, shaderRoot, depth);
-    builder.addTrace(compiler, shaderRoot, depth);
+    builder.addTrace(compiler, shaderRoot, depth, query);
     return builder.take();
+}
+
+} // namespace
+
+Job buildJob(const CaseData& data, ShaderCompiler& compiler, const std::filesystem::path& shaderRoot,
+             Precision precision)
+{
+    return buildTraceJob(data, compiler, shaderRoot, precision, {});
+}
+
+Job buildRecordJob(const CaseData& data, ShaderCompiler& compiler, const std::filesystem::path& shaderRoot,
+                   Precision precision, glm::ivec2 pixel, int stepCapacity)
+{
+    const Camera& camera = data.testCase().camera;
+    if (pixel.x < 0 || pixel.y < 0 || pixel.x >= camera.width || pixel.y >= camera.height) {
+        throw InputError(fmt::format("pixel {},{} is outside the image of {} x {}; allowed are 0,0 to {},{}", pixel.x,
+                                     pixel.y, camera.width, camera.height, camera.width - 1, camera.height - 1));
+    }
+    return buildTraceJob(data, compiler, shaderRoot, precision, PixelQuery{pixel.x, pixel.y, stepCapacity});
 }
 
 std::vector<Plane> readPlanes(const Case& testCase, const JobResult& result)

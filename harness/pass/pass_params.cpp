@@ -41,7 +41,7 @@ glm::dvec2 computeSlope(const Camera& camera)
 }
 
 template <class Params>
-Params fillPassParams(const Case& testCase, const std::vector<PyramidLevel>& levels)
+Params fillPassParams(const Case& testCase, const std::vector<PyramidLevel>& levels, const PixelQuery& query)
 {
     using Vec4 = decltype(Params::material);
     using Mat4 = decltype(Params::viewFromWorld);
@@ -64,6 +64,7 @@ Params fillPassParams(const Case& testCase, const std::vector<PyramidLevel>& lev
     params.tracing = Vec4(glm::dvec4(projection.hiz.depthBias, projection.screenWeightDistance, 0.0, 0.0));
     params.hizLimits = glm::ivec4(projection.hiz.minLevel, projection.hiz.maxLevel, projection.hiz.maxIterations,
                                   static_cast<int>(levels.size()));
+    params.record = glm::ivec4(query.x, query.y, query.stepCapacity, 0);
     for (size_t level = 0; level < levels.size(); ++level) {
         params.pyramidLevels[level] = {levels[level].firstCell, levels[level].width, levels[level].height, 0};
     }
@@ -97,10 +98,11 @@ std::vector<PyramidLevel> layOutPyramid(int width, int height)
 }
 
 std::vector<std::byte> makePassParams(const Case& testCase, const std::vector<PyramidLevel>& levels,
-                                      Precision precision)
+                                      Precision precision, const std::optional<PixelQuery>& query)
 {
-    return precision == Precision::kFloat ? bytesOf(fillPassParams<layout32::PassParams>(testCase, levels))
-                                          : bytesOf(fillPassParams<layout64::PassParams>(testCase, levels));
+    const PixelQuery recorded = query.value_or(PixelQuery{});
+    return precision == Precision::kFloat ? bytesOf(fillPassParams<layout32::PassParams>(testCase, levels, recorded))
+                                          : bytesOf(fillPassParams<layout64::PassParams>(testCase, levels, recorded));
 }
 
 std::vector<std::byte> makePyramidParams(const Case& testCase, const std::vector<PyramidLevel>& levels, size_t target,

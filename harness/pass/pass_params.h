@@ -5,6 +5,7 @@
 #include "harness/case/case.h"
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace crossray {
@@ -16,9 +17,14 @@ struct PyramidLevel {
 // Level l+1 has half the cells of level l, rounded down but never below 1; the last cell of an odd side covers three.
 std::vector<PyramidLevel> layOutPyramid(int width, int height);
 
+// The pixel that a variant with kRecordPixel records, and the steps that its record has room for.
+struct PixelQuery {
+    int x = 0, y = 0, stepCapacity = 0;
+};
+
 // The block PassParams of crossray/shared/pass_params.glsl, laid out by std140 (float) or as its mirror in doubles.
 std::vector<std::byte> makePassParams(const Case& testCase, const std::vector<PyramidLevel>& levels,
-                                      Precision precision);
+                                      Precision precision, const std::optional<PixelQuery>& query = {});
 
 // The block PyramidParams for the reduction that writes level `target`.
 std::vector<std::byte> makePyramidParams(const Case& testCase, const std::vector<PyramidLevel>& levels, size_t target,

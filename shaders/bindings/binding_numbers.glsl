@@ -10,5 +10,6 @@ const int kColorBinding = 3;
 const int kMaskBinding = 4;
 const int kPyramidBinding = 8;
 const int kOutputBinding = 9;
+const int kRecordBinding = 12;
 
 #endif

@@ -11,3 +11,4 @@ CROSSRAY_VARIANT(3, kOutputMask, 65535)   // bit i: output i is stored; crossray
 CROSSRAY_VARIANT(4, kOrthographic, 0)     // 1: View.orthographic
 CROSSRAY_VARIANT(5, kReversedDepth, 1)    // 1: View.reversedDepth
 CROSSRAY_VARIANT(6, kScreenWeightForm, 1) // 0 linear, 1 smooth as of 2018, 2 smooth as of today
+CROSSRAY_VARIANT(20, kRecordPixel, 0)     // 1: records the pixel params.record and stores no plane

@@ -9,6 +9,7 @@ bool wantsOutput(int id) { return (kOutputMask & (1 << id)) != 0; }
 
 void storeOutput(int id, ivec2 pixel, vec4 value)
 {
+    if (kRecordPixel == 1) return; // records one pixel, stores no plane
     int slot = bitCount(kOutputMask & ((1 << id) - 1));
     ivec2 size = ivec2(int(params.imageSizeAndSlope.x), int(params.imageSizeAndSlope.y));
     storeOutputValue((slot * size.y + pixel.y) * size.x + pixel.x, value);

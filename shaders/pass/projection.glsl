@@ -8,6 +8,7 @@
 #include "crossray/project/proxy.glsl"
 #include "crossray/refract/refraction.glsl"
 #include "crossray/shared/outputs.glsl"
+#include "pass/pixel_record.glsl"
 
 // The library's hooks for the pyramid, over one buffer of cells.
 int depthPyramidLevelCount() { return params.hizLimits.w; }
@@ -17,9 +18,6 @@ vec2 fetchDepthPyramid(ivec2 cell, int level)
     ivec4 layoutOfLevel = params.pyramidLevels[level];
     return loadPyramidCell(layoutOfLevel.x + cell.y * layoutOfLevel.y + cell.x);
 }
-
-// The release build records nothing.
-void recordHizStep(HizStep) {}
 
 // What a pixel knows in the end; each debug mode shows a part of it.
 struct PixelAnswer {
@@ -33,6 +31,7 @@ struct PixelAnswer {
     int iterations;
     int maxUsedLevel;
     int intersectionKind;
+    float confidence; // of a hit, [0,1]; 1 where the model does not say
 };
 
 ProxyHit projectOnProxy(vec3 originWS, vec3 dirWS)
@@ -50,11 +49,12 @@ ProxyHit projectOnProxy(vec3 originWS, vec3 dirWS)
 PixelAnswer answerByProxy(View view, RefractionExit ray)
 {
     ProxyHit hit = projectOnProxy(ray.positionWS, ray.dirWS);
+    recordProxyHit(hit);
     ScreenPosition end = projectWSToSS(view, hit.positionWS);
     bool success = hit.hit && end.inFront;
     int reason = hit.hit ? (end.inFront ? kHitReasonNone : kHitReasonBehindCamera) : hit.reason;
     return PixelAnswer(success ? kHitClassHit : kHitClassMiss, reason, ray.positionWS, ray.dirWS, ray.pathLength,
-                       end.positionSS, success ? end.linearDepth : 0.0, 0, 0, 0);
+                       end.positionSS, success ? end.linearDepth : 0.0, 0, 0, 0, success ? 1.0 : 0.0);
 }
 
 PixelAnswer answerByHiz(View view, RefractionExit ray)
@@ -64,7 +64,8 @@ PixelAnswer answerByHiz(View view, RefractionExit ray)
     TraceResult result = traceHiz(view, ray.positionWS, ray.dirWS, settings);
     return PixelAnswer(result.hitClass, result.reason, ray.positionWS, ray.dirWS, ray.pathLength, result.positionSS,
                        result.hitClass == kHitClassHit ? result.linearDepth : 0.0, result.iterations,
-                       result.maxUsedLevel, result.intersectionKind);
+                       result.maxUsedLevel, result.intersectionKind,
+                       result.hitClass == kHitClassHit ? 1.0 : 0.0);
 }
 
 // What the ray of a pixel meets, by the variant's model. `positionSS` is the pixel's own, where a ray that is not cast ends.
@@ -72,13 +73,13 @@ PixelAnswer projectRay(View view, RefractionExit ray, vec2 positionSS)
 {
     if (ray.status != kHitReasonNone) {
         return PixelAnswer(kHitClassNoRaycast, ray.status, ray.positionWS, ray.dirWS, ray.pathLength, positionSS, 0.0, 0,
-                           0, 0);
+                           0, 0, 0.0);
     }
     if (kProjectionModel == kTracingModelHiz) return answerByHiz(view, ray);
     if (kProjectionModel != kTracingModelNone) return answerByProxy(view, ray);
     // Only the ray is asked for: nothing is cast, so nothing is hit or missed.
     return PixelAnswer(kHitClassNoRaycast, kHitReasonNone, ray.positionWS, ray.dirWS, ray.pathLength, positionSS,
-                       0.0, 0, 0, 0);
+                       0.0, 0, 0, 0, 0.0);
 }
 
 #endif

@@ -1,6 +1,7 @@
 // One pixel of the pass screen_trace: the reflected or refracted ray, its projection by one of the models, the screen weight, and
 // the debug modes. The variant constants select the code; what a variant does not use is not in it.
-// Hooks: fetchDeviceDepth, fetchNormalWS, fetchColor, fetchTraced, loadPyramidCell, storeOutputValue, and the block params;
+// Hooks: fetchDeviceDepth, fetchNormalWS, fetchColor, fetchTraced, loadPyramidCell, storeOutputValue, storeRecordValue, and the
+// block params;
 // bindings/screen_trace.glsl.
 #ifndef PASS_SCREEN_TRACE_GLSL
 #define PASS_SCREEN_TRACE_GLSL
@@ -20,25 +21,45 @@ PixelAnswer answerPixel(View view, ivec2 pixel)
     float linearDepth = linearDepthFromDevice(view, fetchDeviceDepth(pixel));
     vec3 positionWS = positionWSFromSS(view, positionSS, linearDepth);
     vec3 viewDirWS = viewDirectionWS(view, positionWS);
-    return projectRay(view, computePixelRay(positionWS, fetchNormalWS(pixel), viewDirWS), positionSS);
+    RefractionExit ray = computePixelRay(positionWS, fetchNormalWS(pixel), viewDirWS);
+    recordRay(view, ray.positionWS, ray.dirWS, ray.pathLength);
+    return projectRay(view, ray, positionSS);
 }
 
 PixelAnswer answerUntraced()
 {
     vec3 none = vec3(0.0, 0.0, 0.0);
-    return PixelAnswer(kHitClassNoRaycast, kHitReasonNone, none, none, 0.0, vec2(0.0, 0.0), 0.0, 0, 0, 0);
+    return PixelAnswer(kHitClassNoRaycast, kHitReasonNone, none, none, 0.0, vec2(0.0, 0.0), 0.0, 0, 0, 0, 0.0);
 }
 
-void traceScreenPixel(ivec2 pixel)
+void recordAnswer(bool isTraced, PixelAnswer answer, ScreenColor screen)
 {
+    if (kRecordPixel != 1) return;
+    storeRecordValue(kRecordClass, vec4(float(kProjectionModel), float(answer.hitClass), float(answer.reason),
+                                        isTraced ? 1.0 : 0.0));
+    storeRecordValue(kRecordEnd, vec4(answer.positionSS, answer.linearDepth, screen.weight));
+    storeRecordValue(kRecordColor, vec4(screen.color, screen.weight));
+    storeRecordValue(kRecordCounts, vec4(float(answer.iterations), float(answer.maxUsedLevel),
+                                         float(answer.intersectionKind), answer.confidence));
+}
+
+// The variant that records a pixel traces it in its first invocation, and nothing in the others.
+void traceScreenPixel(ivec2 invocation)
+{
+    bool isFirst = invocation.x == 0 && invocation.y == 0;
+    if (kRecordPixel == 1 && !isFirst) return;
+    ivec2 pixel = kRecordPixel == 1 ? ivec2(params.record.x, params.record.y) : invocation;
     View view = loadView();
     if (float(pixel.x) >= view.imageSize.x || float(pixel.y) >= view.imageSize.y) return;
     if (!fetchTraced(pixel)) {
+        recordAnswer(false, answerUntraced(), ScreenColor(vec3(0.0, 0.0, 0.0), 0.0));
         storeAnswer(view, pixel, answerUntraced(), ScreenColor(vec3(0.0, 0.0, 0.0), 0.0));
         return;
     }
     PixelAnswer answer = answerPixel(view, pixel);
-    storeAnswer(view, pixel, answer, computeScreenColor(view, answer));
+    ScreenColor screen = computeScreenColor(view, answer);
+    recordAnswer(true, answer, screen);
+    storeAnswer(view, pixel, answer, screen);
 }
 
 #endif

@@ -59,14 +59,17 @@ void storePyramidCell(int index, vec2 value)
     cells.values[first + 1] = value.y;
 }
 
-void storeOutputValue(int index, vec4 value)
+void storeVector(uint32_t binding, int index, vec4 value)
 {
-    const CpuResource<Real>& values = bound.resources[kOutputBinding];
+    const CpuResource<Real>& values = bound.resources[binding];
     const auto first = static_cast<size_t>(index) * 4;
     if (index < 0 || first + 4 > values.scalarCount) return;
     const Real components[4] = {value.x, value.y, value.z, value.w};
     std::memcpy(values.values + first, components, sizeof(components));
 }
+
+void storeOutputValue(int index, vec4 value) { storeVector(kOutputBinding, index, value); }
+void storeRecordValue(int index, vec4 value) { storeVector(kRecordBinding, index, value); }
 
 #include "pass/depth_pyramid.glsl"
 #include "pass/screen_trace.glsl"
