@@ -1,5 +1,6 @@
 #include "harness/bench/throughput.h"
 
+#include "harness/base/temporary_folder.h"
 #include "harness/base/outputs.h"
 #include "harness/compile/compile.h"
 #include "harness/run/execute.h"
@@ -8,8 +9,6 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-
-#include <stdlib.h>
 
 #include <algorithm>
 #include <atomic>
@@ -25,28 +24,6 @@ class SilentObserver final : public RunObserver {
     void finishBackend(const CaseResult&, const BackendResult&) override {}
     void finishCase(const CaseResult&) override {}
     void tick() override {}
-};
-
-// A folder that is gone when this is.
-class TemporaryFolder {
-  public:
-    TemporaryFolder()
-    {
-        std::string name = (std::filesystem::temp_directory_path() / "crossray-bench-XXXXXX").string();
-        if (!mkdtemp(name.data())) throw EnvironmentError("no temporary folder can be made for the shader cache");
-        path_ = name;
-    }
-    ~TemporaryFolder()
-    {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    const std::filesystem::path& path() const { return path_; }
-
-  private:
-    std::filesystem::path path_;
 };
 
 struct Round {
@@ -192,7 +169,7 @@ std::vector<ThroughputPoint> measureThroughput(const ThroughputOptions& options,
             std::vector<Round> cold, warm, hot;
             // Round -1 fills the SPIR-V cache, which is the same for every backend, and is not counted.
             for (int round = -1; round < options.rounds; ++round) {
-                const TemporaryFolder mesaCache;
+                const TemporaryFolder mesaCache("bench");
                 {
                     WorkerPool pool(workerOptions(mesaCache.path(), cores));
                     openWorkers(pool, backend, cores);

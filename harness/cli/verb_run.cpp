@@ -21,6 +21,11 @@ namespace crossray {
 
 namespace {
 
+std::string countOf(size_t count, std::string_view thing)
+{
+    return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
+}
+
 namespace fs = std::filesystem;
 
 std::atomic<bool> interrupted{false};
@@ -92,11 +97,11 @@ void printSummary(const RunResult& run, const RunOptions& options, const Style& 
         for (const auto& [verdict, count] : counts.byVerdict) {
             if (verdict != Verdict::kPass) others += fmt::format(", {} {}", count, nameOf(verdict));
         }
-        fmt::print(text, "{} cases on {} backends in {:.1f} s{}; results in {}/run.json\n", run.cases.size(),
-                   run.backends.size(), run.seconds, others, options.output);
+        fmt::print(text, "{} on {} in {:.1f} s{}; results in {}/run.json\n", countOf(run.cases.size(), "case"),
+                   countOf(run.backends.size(), "backend"), run.seconds, others, options.output);
     }
     if (!run.unchanged.empty()) {
-        fmt::print(text, "{} cases left out: they have passed with the same inputs\n", run.unchanged.size());
+        fmt::print(text, "{} left out: passed with the same inputs\n", countOf(run.unchanged.size(), "case"));
     }
     for (const std::string& line : run.brokenFiles)
         fmt::print(text, "{} {}\n", style.paint(Ink::kRed, "broken:"), line);

@@ -140,14 +140,6 @@ TEST(ShaderProxy, DegenerateInputIsAnswered)
     EXPECT_TRUE(isMiss(projectProxyInfinite(vec3(0), vec3(kInfinity, 0, 0)), kHitReasonDegenerateRay));
 }
 
-TEST(ShaderProxy, InFrontOfTheCamera)
-{
-    View view = makeView(vec2(8, 8), Real(0.5), Real(0.1), 100, 1, false, vec3(0, 0, 5));
-    EXPECT_TRUE(proxyHitInFront(view, vec3(90, 0, 4)));
-    EXPECT_FALSE(proxyHitInFront(view, vec3(0, 0, 6)));
-    EXPECT_FALSE(proxyHitInFront(view, vec3(0, 0, 5)));
-}
-
 RC_GTEST_PROP(ShaderProxy, AnswersAnything, ())
 {
     const vec3 origin = drawHostileVector<vec3>();

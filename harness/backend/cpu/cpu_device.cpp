@@ -3,10 +3,10 @@
 #include "harness/backend/cpu/kernels.h"
 #include "harness/base/cpu_info.h"
 #include "harness/base/error.h"
+#include "harness/base/stopwatch.h"
 
 #include <fmt/format.h>
 
-#include <chrono>
 
 namespace crossray {
 
@@ -26,21 +26,6 @@ struct KernelLibrary<double> {
     static auto kernels() { return cpu64::kernels(); }
     static bool setVariant(std::string_view name, double value) { return cpu64::setVariant(name, value); }
     static void resetVariants() { cpu64::resetVariants(); }
-};
-
-class Stopwatch {
-  public:
-    // Milliseconds since the last call.
-    double lap()
-    {
-        const auto now = std::chrono::steady_clock::now();
-        const double elapsed = std::chrono::duration<double, std::milli>(now - start_).count();
-        start_ = now;
-        return elapsed;
-    }
-
-  private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 template <class Real>

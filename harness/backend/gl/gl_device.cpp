@@ -8,37 +8,19 @@
 #include "harness/backend/gl/gl_resources.h"
 #include "harness/backend/gl/lru_cache.h"
 #include "harness/base/error.h"
+#include "harness/base/stopwatch.h"
 
 #include <fmt/format.h>
 #include <glad/gl.h>
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <optional>
 
 namespace crossray {
 namespace {
 
 constexpr size_t kProgramsKept = 512;
-
-// GL's timer queries are wrong by orders of magnitude on software rasterisers, so the wall clock around glFinish is the
-// time.
-class Stopwatch {
-  public:
-    // Milliseconds since the last call.
-    double lap()
-    {
-        const auto now = Clock::now();
-        const std::chrono::duration<double, std::milli> passed = now - last_;
-        last_ = now;
-        return passed.count();
-    }
-
-  private:
-    using Clock = std::chrono::steady_clock;
-    Clock::time_point last_ = Clock::now();
-};
 
 // All that a job holds on the device, by its place in the job.
 struct JobResources {
@@ -136,6 +118,7 @@ class GlDevice final : public Device {
         programs_.trim(kProgramsKept); // here and not at the end, so that jobs which fail cannot pile programs up
         JobResult result;
         JobResources resources;
+        // GL's timer queries are wrong by orders of magnitude on software rasterisers: the wall clock around glFinish.
         Stopwatch stopwatch;
 
         makePrograms(job, resources, result);

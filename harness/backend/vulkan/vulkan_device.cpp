@@ -5,26 +5,14 @@
 #include "harness/backend/vulkan/memory.h"
 #include "harness/backend/vulkan/programs.h"
 #include "harness/backend/vulkan/recorder.h"
+#include "harness/base/stopwatch.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstring>
 
 namespace crossray {
 namespace vulkan {
 namespace {
-
-class Stopwatch {
-  public:
-    double lap() // milliseconds since the last lap
-    {
-        const auto now = std::chrono::steady_clock::now();
-        return std::chrono::duration<double, std::milli>(now - std::exchange(last_, now)).count();
-    }
-
-  private:
-    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 SamplerHandle createSampler(VkDevice device, ImageFilter filter)
 {

@@ -108,10 +108,4 @@ ProxyHit projectProxyInfinite(vec3 originWS, vec3 dirWS)
     return makeProxyHit(originWS, dir, kFarAway);
 }
 
-// The second half of success: the hit lies in front of the camera. Being on screen is no part of it.
-bool proxyHitInFront(View view, vec3 positionWS)
-{
-    return positionVSFromWS(view, positionWS).z < 0.0;
-}
-
 #endif

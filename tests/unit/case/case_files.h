@@ -1,6 +1,7 @@
 // Case files on the fly: a folder of its own a test, and a short way to state what a file is refused with.
 #pragma once
 
+#include "harness/base/temporary_folder.h"
 #include "harness/case/case.h"
 
 #include <gtest/gtest.h>
@@ -17,13 +18,6 @@ namespace crossray {
 
 class CaseFiles : public testing::Test {
   protected:
-    CaseFiles()
-    {
-        std::string name = (std::filesystem::temp_directory_path() / "crossray_case_XXXXXX").string();
-        folder_ = mkdtemp(name.data());
-    }
-    ~CaseFiles() override { std::filesystem::remove_all(folder_); }
-
     std::filesystem::path write(const std::string& name, const std::string& text) const
     {
         std::filesystem::create_directories((folder_ / name).parent_path());
@@ -71,7 +65,8 @@ class CaseFiles : public testing::Test {
     // The same with a [scene].
     static std::string withScene(const std::string& rest) { return complete("[scene]\n" + rest); }
 
-    std::filesystem::path folder_;
+    TemporaryFolder temporary_{"case"};
+    const std::filesystem::path folder_ = temporary_.path();
 };
 
 } // namespace crossray

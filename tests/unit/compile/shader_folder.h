@@ -1,6 +1,7 @@
 // A folder of shader sources that lives as long as one test.
 #pragma once
 
+#include "harness/base/temporary_folder.h"
 #include "harness/compile/compile.h"
 
 #include <filesystem>
@@ -12,37 +13,24 @@ namespace crossray {
 
 class ShaderFolder {
   public:
-    ShaderFolder()
-    {
-        std::string name = (std::filesystem::temp_directory_path() / "crossray_compile_XXXXXX").string();
-        root_ = ::mkdtemp(name.data());
-    }
-    ~ShaderFolder()
-    {
-        std::error_code ignored;
-        std::filesystem::remove_all(root_, ignored);
-    }
-    ShaderFolder(const ShaderFolder&) = delete;
-    ShaderFolder& operator=(const ShaderFolder&) = delete;
-
     std::filesystem::path write(const std::string& name, const std::string& text) const
     {
-        const std::filesystem::path path = root_ / "shaders" / name;
+        const std::filesystem::path path = root() / "shaders" / name;
         std::filesystem::create_directories(path.parent_path());
         std::ofstream(path, std::ios::binary) << text;
         return path;
     }
-    std::filesystem::path cache() const { return root_ / "cache"; }
+    std::filesystem::path cache() const { return root() / "cache"; }
     CompileOptions options() const
     {
         CompileOptions options;
-        options.includeRoot = root_ / "shaders";
+        options.includeRoot = root() / "shaders";
         return options;
     }
-    const std::filesystem::path& root() const { return root_; }
+    const std::filesystem::path& root() const { return folder_.path(); }
 
   private:
-    std::filesystem::path root_;
+    TemporaryFolder folder_{"compile"};
 };
 
 // A small shader with every kind of resource and two variants.

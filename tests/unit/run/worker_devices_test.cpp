@@ -1,4 +1,5 @@
 // The drivers of this machine, each in its worker.
+#include "harness/base/temporary_folder.h"
 #include "harness/compile/compile.h"
 #include "harness/run/worker_explain.h"
 #include "harness/run/worker_pool.h"
@@ -40,26 +41,6 @@ void main()
 }
 )";
 
-class Folder {
-  public:
-    Folder()
-    {
-        std::string name = (std::filesystem::temp_directory_path() / "crossray_worker_XXXXXX").string();
-        path_ = ::mkdtemp(name.data());
-    }
-    ~Folder()
-    {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    const std::filesystem::path& path() const { return path_; }
-
-  private:
-    std::filesystem::path path_;
-};
-
 Job makeScaleJob(const std::filesystem::path& folder, double scale)
 {
     std::ofstream(folder / "scale.comp") << kSource;
@@ -92,7 +73,7 @@ class WorkerDevices : public testing::TestWithParam<std::string> {
         options.executable = CROSSRAY_BINARY_DIR "/worker_program";
         options.mesaCacheFolder = folder.path() / "mesa";
     }
-    Folder folder;
+    TemporaryFolder folder{"worker"};
     WorkerOptions options;
 };
 

@@ -1,3 +1,4 @@
+#include "harness/base/temporary_folder.h"
 #include "harness/scene/exr.h"
 
 #include "harness/base/error.h"
@@ -19,13 +20,6 @@ namespace {
 
 class Exr : public testing::Test {
   protected:
-    Exr()
-    {
-        folder_ = std::filesystem::temp_directory_path() / ("crossray_exr_" + std::to_string(::getpid()));
-        std::filesystem::create_directories(folder_);
-    }
-    ~Exr() override { std::filesystem::remove_all(folder_); }
-
     std::string messageOf(const std::string& bytes) const
     {
         const std::filesystem::path file = folder_ / "hostile.exr";
@@ -42,7 +36,8 @@ class Exr : public testing::Test {
         return "";
     }
 
-    std::filesystem::path folder_;
+    TemporaryFolder temporary_{"scene"};
+    const std::filesystem::path folder_ = temporary_.path();
 };
 
 Plane makeNoise(const std::string& name, int width, int height, int channels)

@@ -1,4 +1,5 @@
 // G-buffers and cameras from files: what is derived, what is cleared, and what every complaint says.
+#include "harness/base/temporary_folder.h"
 #include "harness/scene/gbuffer.h"
 
 #include "harness/base/error.h"
@@ -33,12 +34,9 @@ class GBufferFile : public testing::Test {
   protected:
     GBufferFile()
     {
-        folder_ = std::filesystem::temp_directory_path() / ("crossray_gbuffer_" + std::to_string(::getpid()));
-        std::filesystem::create_directories(folder_);
         file_ = folder_ / "gbuffer.exr";
         camera_ = makeRandomRoomCamera(3, 40, 30);
     }
-    ~GBufferFile() override { std::filesystem::remove_all(folder_); }
 
     // The message of what `read` throws: it must be one line that begins with the file and says what is allowed.
     template <typename Read>
@@ -71,7 +69,9 @@ class GBufferFile : public testing::Test {
         });
     }
 
-    std::filesystem::path folder_, file_;
+    TemporaryFolder temporary_{"scene"};
+    const std::filesystem::path folder_ = temporary_.path();
+    std::filesystem::path file_;
     Camera camera_;
 };
 
