@@ -5,16 +5,22 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <utility>
+
 namespace crossray {
 
 namespace {
 
 constexpr int kMaxIterations = 512;
 
-TracerImage makeTracerImage(const GBuffer& gbuffer)
+TracerImage makeTracerImage(const YardstickScene& scene)
 {
+    const GBuffer& gbuffer = scene.gbuffer;
     const Camera& camera = gbuffer.camera;
     TracerImage image;
+    image.serial = scene.serial;
+    if (isTracerImageLoaded(scene.serial)) return image;
     image.width = camera.width;
     image.height = camera.height;
     for (int i = 0; i < 16; ++i)
@@ -66,23 +72,31 @@ std::array<float, 3> toFloats(const glm::dvec3& v)
 std::vector<TracerMethod> libraryTracers(double thickness)
 {
     std::vector<TracerMethod> methods;
-    for (const double caution : {0.25, 0.4, 0.5, 1.0}) {
+    for (const double caution : {0.0, 0.25, 0.4, 0.5, 0.7, 1.0, 2.0}) {
         methods.push_back(
             {fmt::format("planes, caution {}", caution), [caution](const YardstickScene& scene) -> Tracer {
-                 loadPatchTracer(makeTracerImage(scene.gbuffer), 0);
-                 return [caution](const YardstickRay& ray) {
+                 const auto depthError = static_cast<float>(scene.depthError);
+                 loadPatchTracer(makeTracerImage(scene), depthError);
+                 return [caution, depthError](const YardstickRay& ray) {
                      return makeAnswer(tracePatchRay(ray.x, ray.y, toFloats(ray.dirWS), kMaxIterations,
-                                                     static_cast<float>(caution), 0));
+                                                     static_cast<float>(caution), depthError));
                  };
              }});
     }
-    methods.push_back({"HiZ, levels 0 to 6", [thickness](const YardstickScene& scene) -> Tracer {
-                           loadHizTracer(makeTracerImage(scene.gbuffer));
-                           return [thickness](const YardstickRay& ray) {
-                               return makeAnswer(traceHizRay(ray.x, ray.y, toFloats(ray.dirWS), 6, kMaxIterations,
-                                                             static_cast<float>(thickness)));
-                           };
-                       }});
+    const auto bias = static_cast<float>(thickness);
+    const std::array<std::pair<std::string, HizKernelSettings>, 4> settings{
+        {{"HiZ, levels 0 to 6, 512 steps", {0, 6, kMaxIterations, bias}},
+         {"HiZ, levels 0 to 6, 64 steps", {0, 6, 64, bias}},
+         {"HiZ, levels 2 to 6, 256 steps", {2, 6, 256, bias}},
+         {"HiZ, levels 2 to 6, 32 steps, 1 m", {2, 6, 32, 1}}}}; // Unity 2018's settings
+    for (const auto& [name, setting] : settings) {
+        methods.push_back({name, [setting](const YardstickScene& scene) -> Tracer {
+                               loadHizTracer(makeTracerImage(scene));
+                               return [setting](const YardstickRay& ray) {
+                                   return makeAnswer(traceHizRay(ray.x, ray.y, toFloats(ray.dirWS), setting));
+                               };
+                           }});
+    }
     return methods;
 }
 

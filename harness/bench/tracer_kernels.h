@@ -3,12 +3,14 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 namespace crossray {
 
 // A G-buffer and its camera, in float.
 struct TracerImage {
+    uint64_t serial = 0; // of the scene; images of one serial are equal
     int width = 0, height = 0;
     std::array<float, 16> worldFromView{}; // columns; rigid
     float slopeX = 1, slopeY = 1;          // View.slope
@@ -29,13 +31,20 @@ struct KernelAnswer {
     int iterations = 0;
 };
 
-// Makes an image the one that the calling thread traces, and builds the pyramid of one tracer for it.
+// Makes an image the one that the calling thread traces, and builds the pyramid of one tracer for it, unless it did so
+// for this serial before. isLoaded: whether the pixels are there already, so that only the head of the image is looked
+// at.
+bool isTracerImageLoaded(uint64_t serial);
 void loadPatchTracer(const TracerImage& image, float depthError);
 void loadHizTracer(const TracerImage& image);
 
 // From the surface at a pixel's centre along a direction in world space.
 KernelAnswer tracePatchRay(int x, int y, std::array<float, 3> dirWS, int maxIterations, float caution,
                            float depthError);
-KernelAnswer traceHizRay(int x, int y, std::array<float, 3> dirWS, int maxLevel, int maxIterations, float depthBias);
+struct HizKernelSettings {
+    int minLevel = 0, maxLevel = 6, maxIterations = 512;
+    float depthBias = 0; // metres
+};
+KernelAnswer traceHizRay(int x, int y, std::array<float, 3> dirWS, const HizKernelSettings& settings);
 
 } // namespace crossray

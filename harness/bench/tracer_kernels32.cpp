@@ -87,8 +87,13 @@ ivec2 finerDepthSize()
     return depths[finerLevel].size;
 }
 
+// Whose image, and whose pyramids.
+thread_local uint64_t loadedSerial = 0, surfaceSerial = 0, depthSerial = 0;
+
 void loadImage(const TracerImage& image)
 {
+    if (image.serial != 0 && image.serial == loadedSerial) return;
+    loadedSerial = image.serial;
     loaded = image;
     View view;
     for (int column = 0; column < 4; ++column) {
@@ -144,9 +149,16 @@ namespace crossray {
 
 using namespace cpu32;
 
+bool isTracerImageLoaded(uint64_t serial)
+{
+    return serial != 0 && serial == loadedSerial;
+}
+
 void loadPatchTracer(const TracerImage& image, float depthError)
 {
     loadImage(image);
+    if (image.serial != 0 && image.serial == surfaceSerial) return;
+    surfaceSerial = image.serial;
     buildLevels(
         surfaces, [&](ivec2 pixel) { return buildSurfacePixel(loadedView, pixel, depthError); },
         [](ivec2 cell, int finer) { return reduceSurfaceCell(cell, finer, ivec2(loaded.width, loaded.height)); });
@@ -155,6 +167,8 @@ void loadPatchTracer(const TracerImage& image, float depthError)
 void loadHizTracer(const TracerImage& image)
 {
     loadImage(image);
+    if (image.serial != 0 && image.serial == depthSerial) return;
+    depthSerial = image.serial;
     buildLevels(
         depths, [](ivec2 pixel) { return makeDepthPyramidTexel(loadedView, fetchDeviceDepth(pixel)); },
         [](ivec2 cell, int) { return reduceDepthPyramidCell(cell); });
@@ -176,12 +190,13 @@ KernelAnswer tracePatchRay(int x, int y, std::array<float, 3> dirWS, int maxIter
             r.iterations};
 }
 
-KernelAnswer traceHizRay(int x, int y, std::array<float, 3> dirWS, int maxLevel, int maxIterations, float depthBias)
+KernelAnswer traceHizRay(int x, int y, std::array<float, 3> dirWS, const HizKernelSettings& settings)
 {
     const vec3 origin = surfacePositionWS(ivec2(x, y));
     fetchCount = 0;
-    const TraceResult r = traceHiz(loadedView, origin, vec3(dirWS[0], dirWS[1], dirWS[2]),
-                                   HizSettings(0, maxLevel, maxIterations, depthBias));
+    const TraceResult r =
+        traceHiz(loadedView, origin, vec3(dirWS[0], dirWS[1], dirWS[2]),
+                 HizSettings(settings.minLevel, settings.maxLevel, settings.maxIterations, settings.depthBias));
     return {r.hitClass == kHitClassHit,
             r.reason == kHitReasonIterationCap,
             r.positionSS.x,

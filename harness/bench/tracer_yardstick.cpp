@@ -1,37 +1,18 @@
 #include "harness/bench/tracer_yardstick.h"
 
-#include "harness/scene/camera_frame.h"
-#include "harness/scene/random_scene.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <mutex>
+#include <thread>
 
 namespace crossray {
 
 namespace {
 
 constexpr int kGroup = 32;
-constexpr double kSelfHit = 1e-6; // metres by which a ray leaves its own surface
-
-void fillTruth(const Scene& scene, const CameraFrame& frame, const glm::dvec3& originWS, YardstickRay& ray)
-{
-    const auto hit = castRay(scene, Ray{originWS, ray.dirWS}, kSelfHit);
-    if (!hit) return;
-    const ScreenPoint point = frame.project(hit->positionWS);
-    if (!point.inFront || !frame.covers(point)) {
-        ray.truth = RayTruth::kOffScreen;
-        return;
-    }
-    ray.hitPositionSS = point.positionSS;
-    ray.hitLinearDepth = point.linearDepth;
-    const Ray look = frame.primaryRay(point.positionSS);
-    const auto seen = castPrimaryRay(scene, frame, look);
-    const bool isVisible = seen && frame.linearDepth(seen->positionWS) > point.linearDepth * (1 - 1e-6);
-    const bool facesCamera = glm::dot(hit->normalWS, ray.dirWS) * glm::dot(hit->normalWS, look.dirWS) > 0;
-    ray.truth = isVisible && facesCamera ? RayTruth::kAnswerable : RayTruth::kHidden;
-}
 
 double percentile(std::vector<double>& values, double share)
 {
@@ -64,27 +45,7 @@ constexpr std::array<Column, 10> kColumns{{{&TracerScore::recall, true},
 
 } // namespace
 
-YardstickScene makeYardstickRoom(uint64_t seed, int width, int height, int stride)
-{
-    const Scene scene = makeRandomRoom(seed);
-    const Camera camera = makeRandomRoomCamera(seed, width, height);
-    const CameraFrame frame(camera);
-    const std::array channels{GBufferChannel::kDeviceDepth, GBufferChannel::kNormalWS};
-    YardstickScene made{seed, renderGBuffer(scene, camera, channels), {}};
-    for (int y = 0; y < height; y += stride) {
-        for (int x = 0; x < width; x += stride) {
-            const Ray primary = frame.primaryRay({x + 0.5, y + 0.5});
-            const auto surface = castPrimaryRay(scene, frame, primary);
-            if (!surface) continue;
-            YardstickRay ray{.x = x, .y = y, .dirWS = glm::normalize(glm::reflect(primary.dirWS, surface->normalWS))};
-            fillTruth(scene, frame, surface->positionWS, ray);
-            made.rays.push_back(ray);
-        }
-    }
-    return made;
-}
-
-TracerScore scoreTracer(const YardstickScene& scene, const Tracer& tracer)
+TracerScore scoreTracer(const YardstickScene& scene, const Tracer& tracer, std::span<ReliabilityBin> bins)
 {
     double answerable = 0, claimed = 0, falseHits = 0, fetches = 0, iterations = 0, capped = 0;
     double groupSum = 0, groups = 0;
@@ -101,6 +62,13 @@ TracerScore scoreTracer(const YardstickScene& scene, const Tracer& tracer)
         if (answer.isHit && isAnswerable && error <= kRightPixels) {
             pixels.push_back(error);
             depths.push_back(std::abs(answer.linearDepth / ray.hitLinearDepth - 1));
+        }
+        if (answer.isHit && answer.confidence > 0 && !bins.empty()) {
+            const auto count = static_cast<double>(bins.size());
+            ReliabilityBin& bin = bins[static_cast<size_t>(std::min(answer.confidence * count, count - 1))];
+            bin.count += 1; // sums, until all scenes are in
+            bin.confidence += answer.confidence;
+            bin.right += isAnswerable && error <= kRightPixels;
         }
         fetches += answer.fetches;
         iterations += answer.iterations;
@@ -146,32 +114,96 @@ TracerRow summarize(std::string name, std::span<const TracerScore> scores)
     return row;
 }
 
-std::vector<TracerRow> measureTracers(std::span<const TracerMethod> methods, uint64_t firstSeed, uint64_t lastSeed,
-                                      int width, int height, const std::function<void(uint64_t)>& report)
+namespace {
+
+using Bins = std::array<ReliabilityBin, kReliabilityBins>;
+
+// One method over all scenes.
+struct Tally {
+    std::vector<TracerScore> scores; // by scene
+    std::vector<Bins> bins;
+};
+
+void measureScene(std::span<const TracerMethod> methods, const YardstickScene& scene, size_t index,
+                  std::vector<Tally>& tallies)
 {
-    std::vector<std::vector<TracerScore>> scores(methods.size());
-    for (uint64_t seed = firstSeed; seed <= lastSeed; ++seed) {
-        const YardstickScene scene = makeYardstickRoom(seed, width, height);
-        for (size_t i = 0; i < methods.size(); ++i)
-            scores[i].push_back(scoreTracer(scene, methods[i].prepare(scene)));
-        if (report) report(seed);
-    }
-    std::vector<TracerRow> rows;
     for (size_t i = 0; i < methods.size(); ++i)
-        rows.push_back(summarize(methods[i].name, scores[i]));
-    return rows;
+        tallies[i].scores[index] = scoreTracer(scene, methods[i].prepare(scene), tallies[i].bins[index]);
 }
 
-std::string formatTracerTable(std::span<const TracerRow> rows)
+std::vector<MeasuredTracer> finish(std::span<const TracerMethod> methods, const std::vector<Tally>& tallies)
 {
-    std::string text = "| tracer | recall (min) | precision | false | median / p95 px | fetches | of 32 | capped |\n"
-                       "|---|--:|--:|--:|--:|--:|--:|--:|\n";
-    for (const TracerRow& row : rows) {
+    std::vector<MeasuredTracer> measured;
+    for (size_t i = 0; i < methods.size(); ++i) {
+        MeasuredTracer tracer{summarize(methods[i].name, tallies[i].scores), {}};
+        Bins sums{};
+        for (const Bins& scene : tallies[i].bins) {
+            for (size_t bin = 0; bin < sums.size(); ++bin) {
+                sums[bin].count += scene[bin].count;
+                sums[bin].confidence += scene[bin].confidence;
+                sums[bin].right += scene[bin].right;
+            }
+        }
+        for (const ReliabilityBin& sum : sums) {
+            if (sum.count > 0)
+                tracer.reliability.push_back({sum.confidence / sum.count, sum.right / sum.count, sum.count});
+        }
+        measured.push_back(std::move(tracer));
+    }
+    return measured;
+}
+
+std::vector<Tally> makeTallies(size_t methods, size_t scenes)
+{
+    return std::vector<Tally>(methods, {std::vector<TracerScore>(scenes), std::vector<Bins>(scenes)});
+}
+
+} // namespace
+
+std::vector<MeasuredTracer> measureTracers(std::span<const TracerMethod> methods, const YardstickOptions& options,
+                                           const std::function<void(uint64_t)>& report)
+{
+    const auto scenes = static_cast<size_t>(options.lastSeed - options.firstSeed + 1);
+    std::vector<Tally> tallies = makeTallies(methods.size(), scenes);
+    std::atomic<size_t> next = 0;
+    std::mutex reporting;
+    const auto work = [&] {
+        for (size_t index = next++; index < scenes; index = next++) {
+            const uint64_t seed = options.firstSeed + index;
+            const YardstickScene scene = makeYardstickScene(options.family, seed, options.width, options.height,
+                                                            options.stride, options.disturbance);
+            measureScene(methods, scene, index, tallies);
+            const std::lock_guard lock(reporting);
+            if (report) report(seed);
+        }
+    };
+    std::vector<std::jthread> threads;
+    for (int i = 1; i < options.threads; ++i)
+        threads.emplace_back(work);
+    work();
+    threads.clear(); // joins
+    return finish(methods, tallies);
+}
+
+std::vector<MeasuredTracer> measureTracers(std::span<const TracerMethod> methods, const YardstickScene& scene)
+{
+    std::vector<Tally> tallies = makeTallies(methods.size(), 1);
+    measureScene(methods, scene, 0, tallies);
+    return finish(methods, tallies);
+}
+
+std::string formatTracerTable(std::span<const MeasuredTracer> rows)
+{
+    std::string text =
+        "| tracer | recall (min) | precision | false (max) | median / p95 px | fetches | of 32 | steps | "
+        "capped |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|\n";
+    for (const MeasuredTracer& tracer : rows) {
+        const TracerRow& row = tracer.row;
         const TracerScore& m = row.mean;
-        text +=
-            fmt::format("| {} | {:.3f} ({:.3f}) | {:.3f} | {:.4f} | {:.3f} / {:.3f} | {:.1f} | {:.0f} | {:.3f} % |\n",
-                        row.name, m.recall, row.worst.recall, m.precision, m.falseShare, m.medianPixels, m.p95Pixels,
-                        m.fetches, m.groupFetches, 100 * m.capped);
+        text += fmt::format("| {} | {:.3f} ({:.3f}) | {:.3f} | {:.4f} ({:.3f}) | {:.3f} / {:.3f} | {:.1f} | {:.0f} | "
+                            "{:.1f} | {:.3f} % |\n",
+                            row.name, m.recall, row.worst.recall, m.precision, m.falseShare, row.worst.falseShare,
+                            m.medianPixels, m.p95Pixels, m.fetches, m.groupFetches, m.iterations, 100 * m.capped);
     }
     return text;
 }

@@ -2,7 +2,9 @@
 // cost a tracer finds it by the depth buffer alone.
 #pragma once
 
+#include "harness/expect/expect.h"
 #include "harness/scene/gbuffer.h"
+#include "harness/scene/scene_families.h"
 
 #include <cstdint>
 #include <functional>
@@ -33,11 +35,33 @@ struct YardstickScene {
     uint64_t seed = 0;
     GBuffer gbuffer;                // device depth and normal
     std::vector<YardstickRay> rays; // row by row
+    double depthError = 0;          // affine depth by which the depth buffer may be wrong (PatchTracerSettings)
+    double depthErrorShare = 0;     // and as a share of the depth
+    uint64_t serial = 0;            // no two scenes of a process have the same; 0: none
 };
 
-// The random room of a seed: the reflected ray of every `stride`-th pixel of every `stride`-th row that shows a
-// surface.
+// What is done to a G-buffer before a tracer sees it. The rays and their truth stay those of the undisturbed scene.
+enum class Disturbance {
+    kNone,
+    kNormalMap,     // normals bent by waves of 17 degrees and more
+    kSmoothNormals, // boxes with the normals of a mesh whose eight vertices share one normal each; as far as 55 degrees
+    kNoNormals,     // zero
+    kDepth24,       // 24-bit fixed point
+    kDepth16,       // 16-bit fixed point
+    kNoise,         // linear depth off by up to 0.1 %, evenly
+};
+std::span<const Disturbance> allDisturbances();
+std::string_view nameOf(Disturbance disturbance);
+std::optional<Disturbance> findDisturbance(std::string_view name);
+
+// The random scene of a family and a seed: the reflected ray of every `stride`-th pixel of every `stride`-th row that
+// shows a surface.
+YardstickScene makeYardstickScene(SceneFamily family, uint64_t seed, int width, int height, int stride = 4,
+                                  Disturbance disturbance = Disturbance::kNone);
 YardstickScene makeYardstickRoom(uint64_t seed, int width, int height, int stride = 4);
+
+// A case's own scene, recorded ones too: the rays are those of its truth.
+YardstickScene makeYardstickScene(const CaseData& data);
 
 // What a tracer says of one ray.
 struct TracerAnswer {
@@ -72,7 +96,9 @@ struct TracerScore {
     double iterations = 0;   // a ray
     double capped = 0;       // share of all rays
 };
-TracerScore scoreTracer(const YardstickScene& scene, const Tracer& tracer);
+struct ReliabilityBin;
+// `bins` receive sums over the hits that have a confidence; empty: none are kept.
+TracerScore scoreTracer(const YardstickScene& scene, const Tracer& tracer, std::span<ReliabilityBin> bins = {});
 
 // A row of the table: means over scenes, and the worst scene.
 struct TracerRow {
@@ -83,16 +109,44 @@ struct TracerRow {
 };
 TracerRow summarize(std::string name, std::span<const TracerScore> scores);
 
-// Every method on the rooms of the seeds [first, last]; a room is made once for all. Calls `report` after each room.
-std::vector<TracerRow> measureTracers(std::span<const TracerMethod> methods, uint64_t firstSeed, uint64_t lastSeed,
-                                      int width, int height, const std::function<void(uint64_t)>& report = {});
+// Of hits that were said to be about so sure, so many were right.
+struct ReliabilityBin {
+    double confidence = 0; // mean of what was said
+    double right = 0;      // share
+    double count = 0;
+};
+inline constexpr int kReliabilityBins = 20; // of equal width
+struct MeasuredTracer {
+    TracerRow row;
+    std::vector<ReliabilityBin> reliability; // over all scenes; empty bins left out; empty without a confidence
+};
+
+struct YardstickOptions {
+    SceneFamily family = SceneFamily::kRandomRoom;
+    Disturbance disturbance = Disturbance::kNone;
+    uint64_t firstSeed = 1, lastSeed = 24;
+    int width = 640, height = 360;
+    int stride = 4;
+    int threads = 1;
+};
+
+// Every method on the scenes of the seeds; a scene is made once for all. Calls `report` after each scene, from one
+// thread at a time.
+std::vector<MeasuredTracer> measureTracers(std::span<const TracerMethod> methods, const YardstickOptions& options,
+                                           const std::function<void(uint64_t)>& report = {});
+std::vector<MeasuredTracer> measureTracers(std::span<const TracerMethod> methods, const YardstickScene& scene);
 
 // A Markdown table.
-std::string formatTracerTable(std::span<const TracerRow> rows);
+std::string formatTracerTable(std::span<const MeasuredTracer> rows);
 
-// The library's tracers as they ship, compiled as C++ in float: planes (project/patch_tracer.glsl) at four cautions,
-// and the depth pyramid (project/hiz.glsl) from level 0, with this thickness in metres. Their state is per thread: one
-// tracer of these is in use at a time.
+// The library's tracers as they ship, compiled as C++ in float: planes (project/patch_tracer.glsl) at several cautions,
+// and the depth pyramid (project/hiz.glsl) at several settings, with this thickness in metres. Their state is per
+// thread: one tracer of these is in use at a time.
 std::vector<TracerMethod> libraryTracers(double thickness);
+
+// Other ways to trace, written for this yardstick from their descriptions, in doubles (reference_tracers.cpp): what the
+// library's are held against. The last is no tracer but a bound: it knows where each ray ends, and claims what the
+// depth buffer shows there.
+std::vector<TracerMethod> referenceTracers(double thickness);
 
 } // namespace crossray

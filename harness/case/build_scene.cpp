@@ -1,6 +1,8 @@
 // [camera], [scene] and [gbuffer].
 #include "harness/case/build.h"
 
+#include "harness/scene/scene_families.h"
+
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -164,6 +166,12 @@ void buildScene(const TableReader& top, Case& testCase)
     testCase.scene.upWS = glm::normalize(testCase.scene.upWS);
     const TableReader sky = scene.table("sky");
     testCase.scene.sky = {readVec3(sky, "zenith"), readVec3(sky, "horizon"), readVec3(sky, "nadir")};
+    if (scene.has("generator")) {
+        const auto family = static_cast<SceneFamily>(scene.choice("generator"));
+        testCase.scene.primitives = makeRandomScene(family, static_cast<uint64_t>(scene.integer("seed"))).primitives;
+    } else if (scene.has("seed")) {
+        throw InputError(scene.position("seed"), "\"seed\" is given without \"generator\"; both together are allowed");
+    }
     for (const std::string_view key : {"primitives", "primitive"}) {
         for (const Node& node : scene.find(key)->items) {
             testCase.scene.primitives.push_back(buildPrimitive(node, testCase.material.ior));
@@ -191,6 +199,14 @@ void buildCamera(const TableReader& top, Case& testCase)
         throw InputError(table.position(table.has("far") ? "far" : "near"),
                          fmt::format("\"far\" is {}; beyond \"near\", which is {}, is allowed", camera.farDistance,
                                      camera.nearDistance));
+    }
+    const TableReader scene = top.table("scene");
+    const bool isPlaced = table.has("eye") || table.has("target") || table.has("up");
+    if (scene.has("generator") && !isPlaced) {
+        const auto family = static_cast<SceneFamily>(scene.choice("generator"));
+        const auto seed = static_cast<uint64_t>(scene.integer("seed"));
+        camera.worldFromView = makeRandomSceneCamera(family, seed, camera.width, camera.height).worldFromView;
+        return;
     }
     const glm::dvec3 eye = readVec3(table, "eye"), target = readVec3(table, "target"), up = readVec3(table, "up");
     if (glm::length(target - eye) < kShortest) {

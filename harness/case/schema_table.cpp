@@ -1,6 +1,7 @@
 // The keys of the case format, table by table, in the order of docs/case-format.md.
 #include "harness/base/outputs.h"
 #include "harness/case/schema_key.h"
+#include "harness/scene/scene_families.h"
 
 #include <iterator>
 
@@ -110,6 +111,14 @@ std::vector<KeySpec> cameraKeys()
     };
 }
 
+std::vector<std::string> sceneFamilyNames()
+{
+    std::vector<std::string> names;
+    for (const SceneFamily family : allSceneFamilies())
+        names.emplace_back(nameOf(family));
+    return names;
+}
+
 std::vector<KeySpec> sceneKeys()
 {
     return {
@@ -119,6 +128,17 @@ std::vector<KeySpec> sceneKeys()
             .byDefault("[64, 64]")
             .says("Width and height of the image, pixels."),
         Key("scene", "up", kVec3).byDefault("[0, 1, 0]").says("Direction of the sky's zenith."),
+        Key("scene", "generator", kChoice)
+            .oneOf(sceneFamilyNames())
+            .withoutIt("none")
+            .says(
+                "A random scene of mirrors; its primitives come before those listed, and its camera stands in for eye, "
+                "target and up."),
+        Key("scene", "seed", kInteger)
+            .atLeast(0)
+            .atMost(1000000000)
+            .byDefault("1")
+            .says("Of the generator: the same seed is the same scene on every machine."),
         Key("scene", "primitives", kTableList).byDefault("[]").says("Primitives as inline tables."),
         Key("scene", "primitive", kTableList)
             .byDefault("[]")

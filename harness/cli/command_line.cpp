@@ -23,6 +23,7 @@ struct CommandLine {
     bool listJson = false;
     ShowOptions show;
     ThroughputVerbOptions throughput;
+    TracersVerbOptions tracers;
     CompileVerbOptions compile;
     bool noOptimization = false;
     std::string before, after;
@@ -190,8 +191,20 @@ void addTools(CLI::App& app, CommandLine& line)
     CLI::App& doctor = *app.add_subcommand("doctor", "Show which backends, compilers and folders are there");
     doctor.callback([&line] { line.verb = [&line] { return diagnose(line.global); }; });
 
-    CLI::App& bench = *app.add_subcommand("bench", "Measure speed");
-    bench.require_subcommand(1);
+    CLI::App& worker = *app.add_subcommand("worker", "Serve one backend; started by run")->group("");
+    worker.add_option("--backend", line.workerBackend)->required();
+    worker.add_option("--request-fd", line.requestFd)->required();
+    worker.add_option("--reply-fd", line.replyFd)->required();
+    worker.add_flag("--validation", line.workerValidation);
+    worker.callback([&line] {
+        line.verb = [&line] {
+            return runWorker(line.workerBackend, line.requestFd, line.replyFd, line.workerValidation);
+        };
+    });
+}
+
+void addThroughput(CLI::App& bench, CommandLine& line)
+{
     CLI::App& throughput = *bench.add_subcommand("throughput", "Milliseconds a case, on each backend");
     throughput.add_option("--backend", line.throughput.backends, "As for run")
         ->type_name("NAME,...")
@@ -210,17 +223,42 @@ void addTools(CLI::App& app, CommandLine& line)
         ->check(CLI::Range(1, 99));
     throughput.add_option("-o,--output", line.throughput.output, "The figures as JSON")->type_name("FILE");
     throughput.callback([&line] { line.verb = [&line] { return benchThroughput(line.global, line.throughput); }; });
+}
 
-    CLI::App& worker = *app.add_subcommand("worker", "Serve one backend; started by run")->group("");
-    worker.add_option("--backend", line.workerBackend)->required();
-    worker.add_option("--request-fd", line.requestFd)->required();
-    worker.add_option("--reply-fd", line.replyFd)->required();
-    worker.add_flag("--validation", line.workerValidation);
-    worker.callback([&line] {
-        line.verb = [&line] {
-            return runWorker(line.workerBackend, line.requestFd, line.replyFd, line.workerValidation);
-        };
-    });
+void addTracers(CLI::App& bench, CommandLine& line)
+{
+    TracersVerbOptions& options = line.tracers;
+    CLI::App& verb =
+        *bench.add_subcommand("tracers", "Screen-space tracers on random scenes: how many hits, at what cost");
+    verb.add_option("--seeds", options.seeds, "Seeds of the scenes; default: 1-24")->type_name("FIRST-LAST");
+    verb.add_option("--size", options.size, "Pixels; default: 1920x1080")->type_name("WIDTHxHEIGHT");
+    verb.add_option("--family", options.family,
+                    "random_room, forest, staircase, terrain, curved_hall or panels; default: random_room")
+        ->type_name("NAME");
+    verb.add_option(
+            "--disturb", options.disturbance,
+            "What is done to the G-buffer: none, normal_map, smooth_normals, no_normals, depth24, depth16 or noise")
+        ->type_name("NAME");
+    verb.add_option("--case", options.testCase, "A case's scene instead")->type_name("CASE");
+    verb.add_option("-k", options.filter, "Only tracers with this in their name")->type_name("TEXT");
+    verb.add_option("--thickness", options.thickness, "Metres; default: 0.2 from 720 lines on, else 0.05")
+        ->type_name("METRES")
+        ->check(CLI::Range(1e-6, 1e6));
+    verb.add_option("--stride", options.stride, "Every so many pixels both ways; default: 4")
+        ->type_name("N")
+        ->check(CLI::Range(1, 64));
+    verb.add_option("--threads", options.threads, "Default: 2")->type_name("N")->check(CLI::Range(1, 256));
+    verb.add_option("--json", options.json, "The figures as JSON")->type_name("FILE");
+    verb.add_option("--csv", options.csv, "The figures as CSV")->type_name("FILE");
+    verb.callback([&line] { line.verb = [&line] { return benchTracers(line.global, line.tracers); }; });
+}
+
+void addBench(CLI::App& app, CommandLine& line)
+{
+    CLI::App& bench = *app.add_subcommand("bench", "Measure speed and accuracy");
+    bench.require_subcommand(1);
+    addThroughput(bench, line);
+    addTracers(bench, line);
 }
 
 std::unique_ptr<CLI::App> makeApp(CommandLine& line)
@@ -240,6 +278,7 @@ std::unique_ptr<CLI::App> makeApp(CommandLine& line)
     addRun(*app, line);
     addInspection(*app, line);
     addTools(*app, line);
+    addBench(*app, line);
     return app;
 }
 

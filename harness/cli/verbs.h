@@ -89,6 +89,20 @@ struct ThroughputVerbOptions {
 };
 int benchThroughput(const GlobalOptions& global, const ThroughputVerbOptions& options);
 
+struct TracersVerbOptions {
+    std::string seeds = "1-24";
+    std::string size = "1920x1080";
+    std::string family = "random_room";
+    std::string disturbance = "none";
+    std::string testCase; // instead of random scenes
+    std::string filter;   // part of a tracer's name; empty: all
+    double thickness = 0; // metres; 0: by the size
+    int stride = 4;
+    int threads = 2;
+    std::string json, csv; // files; empty: none
+};
+int benchTracers(const GlobalOptions& global, const TracersVerbOptions& options);
+
 // Cases for a command line: prints what is wrong with it to standard error. `keepGoing` lets broken files pass. The
 // exit code is set when there is nothing to go on with.
 struct SelectedCases {

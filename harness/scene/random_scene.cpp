@@ -1,6 +1,6 @@
 #include "harness/scene/random_scene.h"
 
-#include <cmath>
+#include "harness/scene/random_parts.h"
 
 namespace crossray {
 
@@ -10,37 +10,7 @@ constexpr double kReach = 10.0; // metres: |x| and |z| of floor and walls
 constexpr double kHeight = 6.0;
 constexpr double kWallZ = -6.0;
 constexpr double kWallX = -7.0;
-constexpr double kEyeClearance = 0.4;
 constexpr uint64_t kCameraStream = 0x63616d6572610000ULL; // keeps the camera's numbers apart from the room's
-
-// One draw a statement everywhere: the order in which arguments are evaluated is the compiler's choice.
-glm::dvec3 drawColor(RandomStream& random)
-{
-    const double r = random.next(0.1, 1.0);
-    const double g = random.next(0.1, 1.0);
-    const double b = random.next(0.1, 1.0);
-    return {r, g, b};
-}
-
-void dress(Primitive& primitive, RandomStream& random)
-{
-    primitive.material = "mirror";
-    primitive.radiance.pattern = RadiancePattern::kChecker;
-    primitive.radiance.colorA = drawColor(random);
-    primitive.radiance.colorB = 0.4 * primitive.radiance.colorA;
-    primitive.radiance.cellSize = 0.5;
-}
-
-Primitive makeWall(const glm::dvec3& center, const glm::dvec3& xAxis, const glm::dvec3& yAxis, double halfX,
-                   double halfY)
-{
-    Primitive wall;
-    wall.shape = PrimitiveShape::kPlane;
-    wall.center = center;
-    wall.worldFromLocal = glm::dmat3(xAxis, yAxis, glm::cross(xAxis, yAxis));
-    wall.halfExtents = {halfX, halfY, kNoLimit};
-    return wall;
-}
 
 Primitive drawBox(RandomStream& random)
 {
@@ -81,21 +51,6 @@ Primitive drawSphere(RandomStream& random)
     sphere.center.y = sphere.radius + (raised ? lift : 0.0);
     sphere.center.z = random.next(-4.0, 3.0);
     return sphere;
-}
-
-double distanceToSolid(const Primitive& solid, const glm::dvec3& positionWS)
-{
-    const glm::dvec3 local = glm::transpose(solid.worldFromLocal) * (positionWS - solid.center);
-    if (solid.shape == PrimitiveShape::kSphere) return glm::length(local) - solid.radius;
-    return glm::length(glm::max(glm::abs(local) - solid.halfExtents, 0.0));
-}
-
-bool isClear(const Scene& scene, const glm::dvec3& eyeWS)
-{
-    for (const Primitive& primitive : scene.primitives)
-        if (primitive.shape != PrimitiveShape::kPlane && distanceToSolid(primitive, eyeWS) < kEyeClearance)
-            return false;
-    return true;
 }
 
 } // namespace

@@ -1,6 +1,9 @@
+#include "harness/bench/tracer_report.h"
 #include "harness/bench/tracer_yardstick.h"
 
 #include <gtest/gtest.h>
+
+#include <map>
 
 using namespace crossray;
 
@@ -72,7 +75,10 @@ TEST(TracerYardstick, ARowIsTheMeanAndTheWorst)
     EXPECT_DOUBLE_EQ(row.worst.recall, 0.5);
     EXPECT_DOUBLE_EQ(row.worst.falseShare, 0.25);
     EXPECT_EQ(row.scenes, 2);
-    EXPECT_NE(formatTracerTable(std::span(&row, 1)).find("| x | 0.750 (0.500) |"), std::string::npos);
+    const MeasuredTracer measured{row, {}};
+    EXPECT_NE(formatTracerTable(std::span(&measured, 1)).find("| x | 0.750 (0.500) |"), std::string::npos);
+    EXPECT_NE(formatTracerCsv(std::span(&measured, 1)).find("\n\"x\",0.75,"), std::string::npos);
+    EXPECT_NE(formatTracerJson({}, std::span(&measured, 1)).find("\"recall\": 0.75"), std::string::npos);
 }
 
 TEST(TracerYardstick, RaysOfARoomStartAtSurfacesAndKnowTheirTruth)
@@ -92,22 +98,77 @@ TEST(TracerYardstick, RaysOfARoomStartAtSurfacesAndKnowTheirTruth)
     EXPECT_EQ(scene.rays.size(), makeYardstickRoom(3, 160, 90).rays.size());
 }
 
-// The tracer over planes at its worth: loosely, on four small rooms, so that a loss of quality or of speed shows.
-TEST(TracerYardstick, TheLibrarysTracersKeepTheirWorth)
+// Each tracer at its worth: loosely, on four small rooms, so that a loss of quality or of speed shows.
+TEST(TracerYardstick, TracersKeepTheirWorth)
 {
-    const std::vector<TracerRow> rows = measureTracers(libraryTracers(0.1), 1, 4, 320, 180);
-    ASSERT_EQ(rows.size(), 5u);
-    for (size_t i = 0; i < 4; ++i) {
-        EXPECT_GT(rows[i].mean.recall, 0.93) << rows[i].name;
-        EXPECT_GT(rows[i].mean.precision, 0.975) << rows[i].name;
-        EXPECT_LT(rows[i].mean.falseShare, 0.02) << rows[i].name;
-        EXPECT_LT(rows[i].mean.p95Pixels, 0.02) << rows[i].name;
-        EXPECT_LT(rows[i].mean.medianDepth, 1e-5) << rows[i].name;
-        EXPECT_LT(rows[i].mean.fetches, 20) << rows[i].name;
-        if (i > 0) {
-            EXPECT_LE(rows[i].mean.recall, rows[i - 1].mean.recall);
-            EXPECT_LE(rows[i].mean.falseShare, rows[i - 1].mean.falseShare);
-        }
+    YardstickOptions options;
+    options.lastSeed = 4;
+    options.width = 320;
+    options.height = 180;
+    options.threads = 2;
+    std::map<std::string, TracerScore> found;
+    for (const auto& methods : {libraryTracers(0.1), referenceTracers(0.1)}) {
+        for (const MeasuredTracer& tracer : measureTracers(methods, options))
+            found[tracer.row.name] = tracer.row.mean;
     }
-    EXPECT_LT(rows[1].mean.falseShare, rows[4].mean.falseShare);
+    const TracerScore* last = nullptr;
+    for (const char* name :
+         {"planes, caution 0.25", "planes, caution 0.4", "planes, caution 0.5", "planes, caution 1"}) {
+        const TracerScore& score = found.at(name);
+        EXPECT_GT(score.recall, 0.93) << name;
+        EXPECT_GT(score.precision, 0.975) << name;
+        EXPECT_LT(score.falseShare, 0.02) << name;
+        EXPECT_LT(score.p95Pixels, 0.02) << name;
+        EXPECT_LT(score.medianDepth, 1e-5) << name;
+        EXPECT_LT(score.fetches, 20) << name;
+        if (last != nullptr) {
+            EXPECT_LE(score.recall, last->recall) << name;
+            EXPECT_LE(score.falseShare, last->falseShare) << name;
+        }
+        last = &score;
+    }
+    EXPECT_LT(found.at("planes, caution 0.4").falseShare, found.at("HiZ, levels 0 to 6, 512 steps").falseShare);
+    EXPECT_GT(found.at("every pixel, nearest depth").recall, 0.9);
+    EXPECT_GT(found.at("every pixel, nearest depth").fetches, 3 * found.at("closest-depth pyramid, 256 steps").fetches);
+    EXPECT_GT(found.at("256 strides, 5 bisections").recall, found.at("64 strides, 5 bisections").recall);
+    const TracerScore& oracle = found.at("oracle: what the depth buffer shows");
+    EXPECT_GT(oracle.recall, found.at("planes, caution 0.25").recall);
+    EXPECT_EQ(oracle.precision, 1);
+    EXPECT_EQ(oracle.falseShare, 0);
+}
+
+TEST(TracerYardstick, FiguresDoNotDependOnTheThreads)
+{
+    YardstickOptions options;
+    options.lastSeed = 3;
+    options.width = 160;
+    options.height = 90;
+    const auto methods = libraryTracers(0.1);
+    const auto one = measureTracers(methods, options);
+    options.threads = 3;
+    const auto three = measureTracers(methods, options);
+    EXPECT_EQ(formatTracerJson({}, one), formatTracerJson({}, three));
+    ASSERT_FALSE(one.front().reliability.empty());
+    for (const ReliabilityBin& bin : one.front().reliability) {
+        EXPECT_GT(bin.count, 0);
+        EXPECT_LE(bin.confidence, 1);
+        EXPECT_LE(bin.right, 1);
+    }
+}
+
+TEST(TracerYardstick, DisturbancesLeaveTheTruth)
+{
+    const YardstickScene plain = makeYardstickScene(SceneFamily::kRandomRoom, 3, 96, 54);
+    for (const Disturbance disturbance : allDisturbances()) {
+        const YardstickScene scene = makeYardstickScene(SceneFamily::kRandomRoom, 3, 96, 54, 4, disturbance);
+        EXPECT_EQ(findDisturbance(nameOf(disturbance)), disturbance);
+        ASSERT_EQ(scene.rays.size(), plain.rays.size());
+        EXPECT_EQ(scene.rays.back().dirWS, plain.rays.back().dirWS);
+        if (disturbance == Disturbance::kNone) continue;
+        EXPECT_TRUE(scene.gbuffer.plane(GBufferChannel::kDeviceDepth).values !=
+                        plain.gbuffer.plane(GBufferChannel::kDeviceDepth).values ||
+                    scene.gbuffer.plane(GBufferChannel::kNormalWS).values !=
+                        plain.gbuffer.plane(GBufferChannel::kNormalWS).values)
+            << nameOf(disturbance);
+    }
 }

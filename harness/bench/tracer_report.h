@@ -1,0 +1,21 @@
+// The figures of the yardstick as files.
+#pragma once
+
+#include "harness/bench/tracer_yardstick.h"
+
+#include <string>
+
+namespace crossray {
+
+// Options that are JSON's head; `scene` is a case's name where one was measured, else empty.
+struct TracerReportHead {
+    YardstickOptions options;
+    double thickness = 0;
+    std::string scene;
+};
+
+std::string formatTracerJson(const TracerReportHead& head, std::span<const MeasuredTracer> rows);
+// One line a tracer: the means, then the worst scene's figures.
+std::string formatTracerCsv(std::span<const MeasuredTracer> rows);
+
+} // namespace crossray
