@@ -1,0 +1,99 @@
+// Model no more than a scene needs: what a variant does not use is not in its SPIR-V, and what it reads is counted
+// there.
+#include "harness/case/case.h"
+#include "harness/compile/spirv_module.h"
+#include "harness/pass/bindings.h"
+#include "harness/pass/pass.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+#include <string>
+
+using namespace crossray;
+namespace fs = std::filesystem;
+
+namespace {
+
+const fs::path kSource = CROSSRAY_SOURCE_DIR;
+
+struct Cost {
+    size_t instructions = 0;
+    std::map<uint32_t, int> fetches; // by binding
+    int loops = 0;
+    std::set<uint32_t> bindings;
+};
+
+// Opcodes and decorations by the SPIR-V specification, version 1.3.
+Cost measure(const std::vector<uint32_t>& spirv)
+{
+    constexpr uint32_t kOpLoad = 61, kOpDecorate = 71, kOpImageFetch = 95, kOpImage = 100, kOpLoopMerge = 246;
+    constexpr uint32_t kBinding = 33;
+    Cost cost;
+    std::map<uint32_t, uint32_t> bindingOf; // of a variable, and of what is loaded from it
+    forEachSpirvInstruction(spirv, [&](uint32_t opcode, std::span<const uint32_t> operands) {
+        ++cost.instructions;
+        if (opcode == kOpDecorate && operands[1] == kBinding) {
+            bindingOf[operands[0]] = operands[2];
+            cost.bindings.insert(operands[2]);
+        }
+        const bool passesOn = opcode == kOpLoad || opcode == kOpImage;
+        if (passesOn && bindingOf.contains(operands[2])) bindingOf[operands[1]] = bindingOf[operands[2]];
+        if (opcode == kOpImageFetch) ++cost.fetches[bindingOf.at(operands[2])];
+        if (opcode == kOpLoopMerge) ++cost.loops;
+    });
+    return cost;
+}
+
+Cost costOfTrace(const std::string& name)
+{
+    ShaderCompiler compiler({});
+    const CaseData data(readCaseFile(kSource / "cases" / (name + ".toml")).at(0));
+    return measure(buildJob(data, compiler, kSource / "shaders", Precision::kFloat).programs.back().spirv);
+}
+
+} // namespace
+
+TEST(Cost, aProxyReadsOneDepthAndHasNoLoop)
+{
+    for (const char* name : {"reflection/proxy_infinite", "reflection/proxy_error_is_the_distance",
+                             "reflection/proxy_sphere_from_outside"}) {
+        const Cost cost = costOfTrace(name);
+        EXPECT_EQ(cost.fetches.at(kDepthBinding), 1) << name;
+        EXPECT_EQ(cost.fetches.at(kNormalBinding), 1) << name;
+        EXPECT_EQ(cost.loops, 0) << name;
+        EXPECT_FALSE(cost.bindings.contains(kPyramidBinding)) << name;
+        EXPECT_FALSE(cost.bindings.contains(kColorBinding)) << name;
+    }
+}
+
+TEST(Cost, aMarchIsALoopOverThePyramid)
+{
+    const Cost cost = costOfTrace("reflection/hiz_sky");
+    EXPECT_EQ(cost.fetches.at(kDepthBinding), 1);
+    EXPECT_GE(cost.loops, 1);
+    EXPECT_TRUE(cost.bindings.contains(kPyramidBinding));
+}
+
+TEST(Cost, theColourIsReadWhereItIsAskedForAlone)
+{
+    EXPECT_TRUE(costOfTrace("reflection/hiz_colour").bindings.contains(kColorBinding));
+    EXPECT_FALSE(costOfTrace("reflection/hiz_sky").bindings.contains(kColorBinding));
+}
+
+TEST(Cost, growsWithTheModel)
+{
+    const size_t ray = costOfTrace("reflection/ray_plane").instructions;
+    const size_t infinite = costOfTrace("reflection/proxy_infinite").instructions;
+    const size_t box = costOfTrace("reflection/proxy_error_is_the_distance").instructions;
+    const size_t hiz = costOfTrace("reflection/hiz_sky").instructions;
+    EXPECT_LT(ray, infinite);
+    EXPECT_LT(infinite, box);
+    EXPECT_LT(box, hiz);
+    const size_t none = costOfTrace("refraction/none_goes_straight").instructions;
+    const size_t slab = costOfTrace("refraction/box_true_slab").instructions;
+    const size_t sphere = costOfTrace("refraction/sphere_depth_conventions").instructions;
+    EXPECT_LT(none, slab);
+    EXPECT_LT(slab, sphere);
+}
