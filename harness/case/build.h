@@ -28,6 +28,12 @@ void buildKnownFailures(const Node& root, Case& testCase);
 // Of a value that is Euler degrees [x, y, z], applied about the fixed x axis, then y, then z, or { axis, degrees }.
 glm::dmat3 buildRotation(const Node& value);
 glm::dvec3 readVec3(const TableReader& table, std::string_view key);
+Sky readGradient(const TableReader& table);
+
+// What a cubemap shows: [environment]. `probe` is the number of the [[probe]] that it belongs to, from 1; 0: the sky's.
+Environment buildEnvironment(const TableReader& table, const Case& testCase, int probe);
+// [probe.mirror] of a planar probe.
+ProbeMirror buildMirror(const TableReader& probeTable, const Case& testCase, const glm::dvec3& influenceCenter);
 
 // A path that a case names: relative, and inside the folder of the case, also after links are followed.
 std::filesystem::path resolveInside(const Case& testCase, const Node& path, std::string_view key, bool mustExist);

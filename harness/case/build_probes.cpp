@@ -99,59 +99,20 @@ void buildProxy(const TableReader& probeTable, Probe& probe)
     readSize(table, probe.proxy);
 }
 
-glm::dvec3 colorOf(const Node& list)
+// Each kind of probe has its own way to see.
+void requireSight(const TableReader& table, std::string_view required, std::string_view refused)
 {
-    return {list.items[0].number, list.items[1].number, list.items[2].number};
+    const std::string& kind = table.text("kind");
+    if (table.has(refused)) {
+        throw InputError(
+            table.position(refused),
+            fmt::format("\"{}\" is not allowed where \"kind\" is \"{}\"; \"{}\" is", refused, kind, required));
+    }
+    if (!table.has(required))
+        throw InputError(table.position("kind"), fmt::format("\"{}\" is missing; kind {} requires it", required, kind));
 }
 
-Sky buildGradient(const TableReader& table)
-{
-    return {readVec3(table, "zenith"), readVec3(table, "horizon"), readVec3(table, "nadir")};
-}
-
-EnvironmentContent buildContent(const TableReader& table)
-{
-    if (table.has("solid")) return SolidColor{readVec3(table, "solid")};
-    if (table.has("gradient")) return GradientColors{buildGradient(table.table("gradient"))};
-    const bool isFaces = table.has("faces");
-    const std::vector<Node>& colors = table.find(isFaces ? "faces" : "levels")->items;
-    if (!isFaces) {
-        if (colors.empty())
-            throw InputError(table.position("levels"), "\"levels\" is empty; 1 colour or more is allowed");
-        LevelColors levels;
-        std::transform(colors.begin(), colors.end(), std::back_inserter(levels.colors), colorOf);
-        return levels;
-    }
-    FaceColors faces;
-    if (colors.size() != faces.colors.size()) {
-        throw InputError(table.position("faces"),
-                         fmt::format("\"faces\" has {} colours; 6 are allowed: +x, -x, +y, -y, +z, -z", colors.size()));
-    }
-    std::transform(colors.begin(), colors.end(), faces.colors.begin(), colorOf);
-    return faces;
-}
-
-Environment buildEnvironment(const TableReader& table)
-{
-    constexpr std::array<std::string_view, 4> kContents{"solid", "faces", "levels", "gradient"};
-    std::string_view given;
-    for (const std::string_view key : kContents) {
-        if (!table.has(key)) continue;
-        if (!given.empty()) {
-            throw InputError(table.position(key), fmt::format("two contents, \"{}\" and \"{}\"; exactly one of {} is "
-                                                              "allowed",
-                                                              given, key, fmt::join(kContents, ", ")));
-        }
-        given = key;
-    }
-    if (given.empty()) {
-        throw InputError(table.position(""),
-                         fmt::format("no content; exactly one of {} is required", fmt::join(kContents, ", ")));
-    }
-    return {buildContent(table), table.integer("size")};
-}
-
-Probe buildProbe(const Node& node)
+Probe buildProbe(const Node& node, const Case& testCase)
 {
     const TableReader table(&node, "probe");
     Probe probe;
@@ -164,7 +125,14 @@ Probe buildProbe(const Node& node)
     probe.multiplier = table.number("multiplier");
     probe.importance = table.integer("importance");
     probe.distanceBasedRoughness = table.boolean("distance_based_roughness");
-    probe.environment = buildEnvironment(table.table("environment"));
+    if (probe.kind == ProbeKind::kPlanar) {
+        requireSight(table, "mirror", "environment");
+        probe.mirror = buildMirror(table, testCase, probe.influence.center);
+    } else {
+        requireSight(table, "environment", "mirror");
+        probe.environment =
+            buildEnvironment(table.table("environment"), testCase, static_cast<int>(testCase.probes.size()) + 1);
+    }
     return probe;
 }
 
@@ -179,7 +147,7 @@ void buildProbes(const TableReader& top, Case& testCase)
             throw InputError(node.place.position(),
                              fmt::format("[[probe]] stands here once more; at most {} are allowed", kMostProbes));
         }
-        testCase.probes.push_back(buildProbe(node));
+        testCase.probes.push_back(buildProbe(node, testCase));
     }
 }
 
@@ -188,8 +156,8 @@ void buildSky(const TableReader& top, Case& testCase)
     const TableReader table = top.table("sky");
     SkySettings& sky = testCase.sky;
     sky.model = static_cast<SkyModel>(table.choice("model"));
-    sky.gradient = table.has("gradient") ? buildGradient(table.table("gradient")) : testCase.scene.sky;
-    if (table.has("environment")) sky.environment = buildEnvironment(table.table("environment"));
+    sky.gradient = table.has("gradient") ? readGradient(table.table("gradient")) : testCase.scene.sky;
+    if (table.has("environment")) sky.environment = buildEnvironment(table.table("environment"), testCase, 0);
     if (sky.model == SkyModel::kCubemap && !sky.environment) {
         throw InputError(table.position("model"), "\"environment\" is missing in [sky]; cubemap requires it");
     }

@@ -1,11 +1,13 @@
 // What a case says about reflection probes and the sky: [[probe]], [sky] and the environments that both show.
 #pragma once
 
+#include "harness/base/error.h"
 #include "harness/scene/scene.h"
 
 #include <glm/glm.hpp>
 
 #include <array>
+#include <filesystem>
 #include <optional>
 #include <variant>
 #include <vector>
@@ -15,7 +17,7 @@ namespace crossray {
 // The values are those of shaders/crossray/probe/shapes.glsl.
 enum class VolumeShape { kInfinite = 1, kBox = 2, kSphere = 3 };
 
-enum class ProbeKind { kReflection = 0 };
+enum class ProbeKind { kReflection = 0, kPlanar = 1 };
 
 // Which pipeline's rules weigh and read the probes.
 enum class ProbeProfile { kHdrp = 0 };
@@ -38,11 +40,22 @@ struct LevelColors {
 struct GradientColors {
     Sky sky; // about the scene's up
 };
-using EnvironmentContent = std::variant<SolidColor, FaceColors, LevelColors, GradientColors>;
+struct CubemapFile {
+    std::filesystem::path file; // a person's own; resolved
+};
+// What the scene looks like from the probe's capture position; harness/expect/captures.h makes it.
+struct SceneCapture {
+    enum class Mode { kBaked = 0, kRealtime = 1 } mode = Mode::kRealtime;
+    std::optional<int> bounces;      // harness/scene/capture.h
+    std::optional<int> face;         // that one alone
+    std::filesystem::path bakedFile; // where `crossray bake` puts it; resolved
+    SourcePosition position;         // of the key, for what is said when it is not there
+};
+using EnvironmentContent = std::variant<SolidColor, FaceColors, LevelColors, GradientColors, CubemapFile, SceneCapture>;
 
 struct Environment {
     EnvironmentContent content;
-    int size = 16; // texels a side of the finest level; the chain ends at one texel
+    int size = 16; // texels a side of the finest level; the chain ends at one texel. A CubemapFile has its own
 };
 
 // Rotated, not scaled. A box has half extents; a sphere's radius is in x.
@@ -56,6 +69,15 @@ struct ProbeVolume {
 struct FaceDistances { // metres inwards from the faces; a sphere's is positive.x
     glm::dvec3 positive{0.0};
     glm::dvec3 negative{0.0};
+};
+
+// The plane of a planar probe, and the image in which its mirrored camera captures.
+struct ProbeMirror {
+    glm::dvec3 position{0.0};
+    glm::dvec3 normal{0.0, 0.0, 1.0};  // unit
+    std::optional<double> fovYDegrees; // nothing: the camera's own
+    int width = 0, height = 0;         // pixels
+    bool linearFilter = true;          // between the four nearest pixels; else the nearest
 };
 
 struct Probe {
@@ -72,7 +94,8 @@ struct Probe {
     double multiplier = 1.0;
     int importance = 1;
     bool distanceBasedRoughness = true;
-    Environment environment;
+    Environment environment; // of a reflection probe
+    ProbeMirror mirror;      // of a planar one
 };
 
 enum class SkyModel { kNone = 0, kGradient = 1, kCubemap = 2 };

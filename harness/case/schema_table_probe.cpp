@@ -1,6 +1,7 @@
 // Reflection probes and the sky: [[probe]], [sky] and [environment].
 #include "harness/case/probe.h"
 #include "harness/case/schema_key.h"
+#include "harness/scene/capture.h"
 
 namespace crossray {
 
@@ -88,11 +89,60 @@ std::vector<KeySpec> environmentKeys()
         Key("environment", "gradient", kTable)
             .withoutIt("one content is required")
             .says("Content: keys of [scene.sky], about the scene's up."),
+        Key("environment", "file", kString)
+            .allowed("an EXR inside the case's folder")
+            .withoutIt("one content is required")
+            .says("Content: a cubemap file of your own. Beside `capture = \"baked\"`: where the baked one is, "
+                  "FILE.probeN.exr beside the case unless given."),
+        Key("environment", "capture", kChoice)
+            .oneOf({"baked", "realtime"})
+            .withoutIt("one content is required")
+            .says("Content: the scene, seen from the capture position; baked: as `crossray bake` last wrote it, "
+                  "realtime: "
+                  "at each run."),
+        Key("environment", "bounces", kInteger)
+            .atLeast(0)
+            .atMost(kMaxBounces)
+            .withoutIt("mirrors show their own radiance")
+            .says("Capture: reflections that mirrors show; at 0 they are black."),
+        Key("environment", "face", kChoice)
+            .oneOf({"all", "+x", "-x", "+y", "-y", "+z", "-z"})
+            .byDefault("\"all\"")
+            .says("Capture: one face alone; the others stay black."),
         Key("environment", "size", kInteger)
             .atLeast(1)
             .atMost(kLargestEnvironment)
             .byDefault("16")
-            .says("Texels a side of the finest level; the mip chain ends at one texel."),
+            .says("Texels a side of the finest level; the mip chain ends at one texel. Capture: a power of two."),
+    };
+}
+
+std::vector<KeySpec> mirrorKeys()
+{
+    return {
+        Key("probe.mirror", "position", kVec3)
+            .withoutIt("the influence's center")
+            .says("A point of the mirror plane, world space, metres."),
+        Key("probe.mirror", "rotation", kRotation)
+            .withoutIt("none")
+            .says("World from mirror: Euler degrees [x, y, z], or { axis, degrees }; the normal is its +z."),
+        Key("probe.mirror", "normal", kVec3)
+            .withoutIt("[0, 0, 1]")
+            .says("In the place of a rotation: the side from which the mirror is seen; any length but 0."),
+        Key("probe.mirror", "fov", kNumber)
+            .atLeast(0)
+            .below(180)
+            .withoutIt("the camera's")
+            .says("Vertical field of view of the capture in degrees, perspective; 0 captures nothing."),
+        Key("probe.mirror", "size", kSize)
+            .atLeast(1)
+            .atMost(1024)
+            .withoutIt("the image's")
+            .says("Width and height of the capture, pixels."),
+        Key("probe.mirror", "filter", kChoice)
+            .oneOf({"nearest", "linear"})
+            .byDefault("\"linear\"")
+            .says("The nearest pixel of the capture, or between the nearest four."),
     };
 }
 
@@ -101,7 +151,10 @@ std::vector<KeySpec> environmentKeys()
 std::vector<KeySpec> probeKeys()
 {
     std::vector<KeySpec> keys{
-        Key("probe", "kind", kChoice).oneOf({"reflection"}).byDefault("\"reflection\"").says("A cubemap."),
+        Key("probe", "kind", kChoice)
+            .oneOf({"reflection", "planar"})
+            .byDefault("\"reflection\"")
+            .says("A cubemap, or what a mirror plane shows to the camera."),
         Key("probe", "influence", kTable).required().says("Where the probe counts."),
         Key("probe", "proxy", kTable)
             .withoutIt("infinite")
@@ -123,9 +176,12 @@ std::vector<KeySpec> probeKeys()
         Key("probe", "distance_based_roughness", kBoolean)
             .byDefault("true")
             .says("Sharper where the reflecting surface is nearer to what it reflects than the capture was."),
-        Key("probe", "environment", kTable).required().says("What the probe shows; keys of [environment]."),
+        Key("probe", "environment", kTable)
+            .withoutIt("required by reflection")
+            .says("What the probe shows; keys of [environment]."),
+        Key("probe", "mirror", kTable).withoutIt("required by planar").says("The mirror plane and its capture."),
     };
-    for (std::vector<KeySpec> group : {influenceKeys(), proxyKeys(), environmentKeys()}) {
+    for (std::vector<KeySpec> group : {influenceKeys(), proxyKeys(), mirrorKeys(), environmentKeys()}) {
         keys.insert(keys.end(), std::make_move_iterator(group.begin()), std::make_move_iterator(group.end()));
     }
     return keys;

@@ -41,11 +41,6 @@ std::string partName(int level)
     return fmt::format("Level{}", level);
 }
 
-bool isCubeSize(int size)
-{
-    return size >= 1 && size <= kMaxCubeSize && std::has_single_bit(static_cast<unsigned>(size));
-}
-
 class CubemapReader {
   public:
     explicit CubemapReader(const std::filesystem::path& file) : file_(file), channels_(readExrChannels(file)) {}
@@ -149,6 +144,11 @@ const glm::dvec3& nearestTexel(const Cubemap& cubemap, const glm::dvec3& dir, in
     const int side = cubemap.sizeOf(level);
     const auto cell = [&](double t) { return std::min(static_cast<int>(t * side), side - 1); };
     return cubemap.at(level, position.face, cell(position.uv.x), cell(position.uv.y));
+}
+
+bool isCubeSize(int size)
+{
+    return size >= 1 && size <= kMaxCubeSize && std::has_single_bit(static_cast<unsigned>(size));
 }
 
 void requireCubeSize(int size)

@@ -50,8 +50,9 @@ struct Cubemap {
     }
 };
 
-// Throws InputError unless the size is a power of two, 1 to kMaxCubeSize: of what is captured, baked and read.
-void requireCubeSize(int size);
+// A power of two, 1 to kMaxCubeSize: the sizes of what is captured, baked and read.
+bool isCubeSize(int size);
+void requireCubeSize(int size); // throws InputError otherwise
 
 struct CubeFacePosition {
     int face = 0;

@@ -91,10 +91,12 @@ TEST_F(Probes, keysOfAnotherShapeAreRefused)
 TEST_F(Probes, anEnvironmentHasOneContent)
 {
     const std::string probe = "[[probe]]\n" + kBox + "[probe.environment]\n";
-    EXPECT_EQ(refusal(withScene(probe)), "a.toml:14:1: no content; exactly one of solid, faces, levels, gradient is "
-                                         "required");
+    EXPECT_EQ(refusal(withScene(probe)),
+              "a.toml:14:1: no content; exactly one of solid, faces, levels, gradient, file, capture is "
+              "required");
     EXPECT_EQ(refusal(withScene(probe + "solid = [1, 1, 1]\nlevels = [[1, 1, 1]]\n")),
-              "a.toml:16:10: two contents, \"solid\" and \"levels\"; exactly one of solid, faces, levels, gradient is "
+              "a.toml:16:10: two contents, \"solid\" and \"levels\"; exactly one of solid, faces, levels, gradient, "
+              "file, capture is "
               "allowed");
     EXPECT_EQ(refusal(withScene(probe + "levels = []\n")),
               "a.toml:15:10: \"levels\" is empty; 1 colour or more is allowed");
