@@ -24,6 +24,7 @@ struct CommandLine {
     ShowOptions show;
     ThroughputVerbOptions throughput;
     TracersVerbOptions tracers;
+    BakeOptions bake;
     CompileVerbOptions compile;
     bool noOptimization = false;
     std::string before, after;
@@ -187,6 +188,12 @@ void addTools(CLI::App& app, CommandLine& line)
             return compileShader(line.global, line.compile);
         };
     });
+
+    CLI::App& bake = *app.add_subcommand("bake", "Capture the baked probes of a case as cubemap files");
+    bake.add_option("case", line.bake.testCase, "A case's name, file or glob")->type_name("CASE")->required();
+    bake.add_option("-o,--output", line.bake.output, "Another file than the one that the case reads")
+        ->type_name("FILE.exr");
+    bake.callback([&line] { line.verb = [&line] { return bakeProbes(line.global, line.bake); }; });
 
     CLI::App& doctor = *app.add_subcommand("doctor", "Show which backends, compilers and folders are there");
     doctor.callback([&line] { line.verb = [&line] { return diagnose(line.global); }; });

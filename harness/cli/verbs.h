@@ -59,6 +59,12 @@ struct ShowOptions {
 };
 int showCase(const GlobalOptions& global, const ShowOptions& options);
 
+struct BakeOptions {
+    std::string testCase;
+    std::string output; // empty: where the case looks for it
+};
+int bakeProbes(const GlobalOptions& global, const BakeOptions& options);
+
 struct CompileVerbOptions {
     std::string shader;
     std::string target = "glsl";
