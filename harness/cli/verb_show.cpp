@@ -1,5 +1,6 @@
 #include "harness/cli/picture.h"
 #include "harness/cli/verbs.h"
+#include "harness/expect/planar_diagnosis.h"
 #include "harness/run/case_judge.h"
 #include "harness/run/environment.h"
 
@@ -9,6 +10,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <optional>
 
 namespace crossray {
 
@@ -123,6 +125,28 @@ void printProjection(const Projection& projection)
     fmt::print(", screen weight over {:g}\n", projection.screenWeightDistance);
 }
 
+void printProbes(const Case& testCase)
+{
+    std::optional<CaseData> data; // the surfaces, for planar probes alone
+    const char* label = "probes";
+    for (size_t i = 0; i < testCase.probes.size(); ++i) {
+        const Probe& probe = testCase.probes[i];
+        const bool isPlanar = probe.kind == ProbeKind::kPlanar;
+        const bool isSphere = probe.influence.shape == VolumeShape::kSphere;
+        fmt::print("{:<10} {}: {}, influence {} at {}, {}\n", label, i + 1, isPlanar ? "planar" : "reflection",
+                   isSphere ? "sphere" : "box", formatVector(probe.influence.center),
+                   isSphere ? fmt::format("radius {:g} m", probe.influence.halfExtents.x)
+                            : "half extents " + formatVector(probe.influence.halfExtents));
+        label = "";
+        if (!isPlanar) continue;
+        fmt::print("{:<10}    mirror at {}, normal {}, capture {}x{}\n", label, formatVector(probe.mirror.position),
+                   formatVector(probe.mirror.normal), probe.mirror.width, probe.mirror.height);
+        if (!data) data.emplace(testCase);
+        for (const std::string& line : describeDiagnosis(diagnosePlanar(*data, probe)))
+            fmt::print("{:<10}    {}\n", label, line);
+    }
+}
+
 void printExpectations(const Case& testCase)
 {
     const char* label = "expects";
@@ -173,6 +197,7 @@ void printCase(const Case& testCase, const ShowOptions& options, const Style& st
                    material.roughness);
     }
     printProjection(testCase.projection);
+    printProbes(testCase);
     std::vector<std::string_view> outputs;
     for (const OutputInfo& output : testCase.outputs)
         outputs.push_back(output.name);
