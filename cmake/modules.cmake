@@ -17,7 +17,8 @@ crossray_module(run USES pass backend/cpu backend/vulkan backend/gl
 target_compile_definitions(crossray_run PRIVATE CROSSRAY_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
                            CROSSRAY_VERSION="${PROJECT_VERSION}")
 crossray_module(bench USES run)
-crossray_module(cli USES bench PACKAGES CLI11::CLI11 PNG::PNG)
+crossray_module(inspect USES run PACKAGES nlohmann_json::nlohmann_json)
+crossray_module(cli USES bench inspect PACKAGES CLI11::CLI11 PNG::PNG)
 # CLI11 is a header of templates that the optimiser spends minutes on, for a command line that is parsed once.
 set_source_files_properties(harness/cli/command_line.cpp PROPERTIES COMPILE_OPTIONS "-O0")
 

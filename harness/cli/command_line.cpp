@@ -22,6 +22,7 @@ struct CommandLine {
     SelectionOptions list;
     bool listJson = false;
     ShowOptions show;
+    TraceOptions trace;
     ThroughputVerbOptions throughput;
     TracersVerbOptions tracers;
     BakeOptions bake;
@@ -148,6 +149,19 @@ void addInspection(CLI::App& app, CommandLine& line)
     show.add_option("--image", line.show.image, "Run the case and draw its debug modes, on the first backend named")
         ->type_name("FILE.png");
     show.callback([&line] { line.verb = [&line] { return showCase(line.global, line.show); }; });
+
+    CLI::App& trace = *app.add_subcommand("trace", "Show all that the ray of one pixel does");
+    trace.add_option("case", line.trace.testCase, "A case's name or file")->type_name("CASE")->required();
+    trace.add_option("--pixel", line.trace.pixel, "From the top left corner")->type_name("X,Y")->required();
+    trace
+        .add_option("--backend", line.trace.backends,
+                    "One, or two to see where they part; may be repeated; default: lavapipe")
+        ->type_name("NAME,...")
+        ->delimiter(',')
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    trace.add_flag("--json", line.trace.json, "As JSON");
+    trace.callback([&line] { line.verb = [&line] { return traceCase(line.global, line.trace); }; });
 
     CLI::App& diff = *app.add_subcommand("diff", "Compare two runs, or two EXR files of planes");
     diff.add_option("before", line.before, "A run's folder, its run.json, or an .exr")->type_name("A")->required();

@@ -74,8 +74,18 @@ std::string formatNumbers(const ExpectationResult& expectation)
     return text + "tolerance " + expectation.tolerance + "   (" + expectation.source + ")";
 }
 
-std::string formatCommand(const CaseResult& testCase, const BackendResult& result)
+// What to type next: the ray of the worst pixel, beside the backend that it is held against where it is one; else the
+// case once more, with its planes.
+std::string formatCommand(const CaseResult& testCase, const BackendResult& result, const ExpectationResult* worst)
 {
+    if (worst != nullptr && worst->comparison.worst) {
+        const PixelDifference& pixel = *worst->comparison.worst;
+        constexpr std::string_view kAgreement = "agree with ";
+        const bool isAgreement = worst->source.starts_with(kAgreement);
+        const std::string others = isAgreement ? "," + worst->source.substr(kAgreement.size()) : "";
+        return fmt::format("crossray trace {} --pixel {},{} --backend {}", quoteForShell(testCase.name), pixel.x,
+                           pixel.y, quoteForShell(result.backend + others));
+    }
     return fmt::format("crossray run {} --backend {} --planes all", quoteForShell(testCase.name),
                        quoteForShell(result.backend));
 }
@@ -135,7 +145,7 @@ std::string formatFailure(const CaseResult& testCase, const BackendResult& resul
         for (size_t i = skip; i < result.logLines.size(); ++i)
             text += indentLines(result.logLines[i]);
         return text + fmt::format("      {}   {}\n", style.paint(Ink::kDim, testCase.position.format()),
-                                  formatCommand(testCase, result));
+                                  formatCommand(testCase, result, nullptr));
     }
 
     std::string text;
@@ -147,7 +157,7 @@ std::string formatFailure(const CaseResult& testCase, const BackendResult& resul
         text += fmt::format("      {}\n", formatNumbers(expectation));
         if (i == 0) {
             text += fmt::format("      {}   {}\n", style.paint(Ink::kDim, expectation.position.format()),
-                                formatCommand(testCase, result));
+                                formatCommand(testCase, result, &expectation));
         }
     }
     if (shown < failed.size()) text += fmt::format("      and {} more failed expectations\n", failed.size() - shown);

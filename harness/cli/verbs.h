@@ -65,6 +65,14 @@ struct BakeOptions {
 };
 int bakeProbes(const GlobalOptions& global, const BakeOptions& options);
 
+struct TraceOptions {
+    std::string testCase;
+    std::string pixel; // "X,Y"
+    std::vector<std::string> backends;
+    bool json = false;
+};
+int traceCase(const GlobalOptions& global, const TraceOptions& options);
+
 struct CompileVerbOptions {
     std::string shader;
     std::string target = "glsl";

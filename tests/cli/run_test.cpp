@@ -61,7 +61,7 @@ TEST_F(RunTest, aFailureNamesCaseBackendPixelAndPlace)
     EXPECT_NE(outcome.out.find("FAIL  dir/a  cpu64  HitSuccess   64 of 64 px"), std::string::npos) << outcome.out;
     EXPECT_NE(outcome.out.find("at (0, 0)"), std::string::npos);
     EXPECT_NE(outcome.out.find("cases/a.toml:9:1"), std::string::npos) << outcome.out;
-    EXPECT_NE(outcome.out.find("crossray run dir/a --backend cpu64 --planes all"), std::string::npos);
+    EXPECT_NE(outcome.out.find("crossray trace dir/a --pixel 0,0 --backend cpu64"), std::string::npos);
     EXPECT_TRUE(fs::exists(folder_ / "out/last/planes/dir/a/cpu64.exr"));
     EXPECT_TRUE(fs::exists(folder_ / "out/last/planes/dir/a/expected.exr"));
     EXPECT_EQ(outcome.out.find('\x1b'), std::string::npos); // no colours in a file

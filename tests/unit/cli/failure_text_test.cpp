@@ -51,9 +51,26 @@ TEST(FailureText, saysTheWorstFirstAndHandsOverTheNextCommand)
     EXPECT_EQ(text,
               "FAIL  hiz/two_planes  osmesa  HitDepth   37 of 4096 px (0.90 %), worst 0.005 relative at (31, 12)\n"
               "      expected 2.4987  actual 2.5112   tolerance 0.0001 relative   (truth hit_depth)\n"
-              "      cases/hiz.toml:21:1   crossray run hiz/two_planes --backend osmesa --planes all\n"
+              "      cases/hiz.toml:21:1   crossray trace hiz/two_planes --pixel 31,12 --backend osmesa\n"
               "       RayDirWS   3 of 4096 px (0.07 %), worst 0.005 relative at (31, 12)\n"
               "      expected 2.4987  actual 2.5112   tolerance 0.0001 relative   (truth hit_depth)\n");
+}
+
+TEST(FailureText, anAgreementIsTracedBesideWhatItIsHeldAgainst)
+{
+    ExpectationResult expectation = makeFailure("HitDepth", 1);
+    expectation.source = "agree with cpu64";
+    const std::string text = formatFailure(makeCase(), makeResult({expectation}), kPlain, false);
+    EXPECT_NE(text.find("crossray trace hiz/two_planes --pixel 31,12 --backend osmesa,cpu64\n"), std::string::npos)
+        << text;
+}
+
+TEST(FailureText, withoutAWorstPixelTheCaseIsRunAgain)
+{
+    ExpectationResult expectation = makeFailure("HitSuccess", 1);
+    expectation.comparison.worst.reset();
+    const std::string text = formatFailure(makeCase(), makeResult({expectation}), kPlain, false);
+    EXPECT_NE(text.find("crossray run hiz/two_planes --backend osmesa --planes all\n"), std::string::npos) << text;
 }
 
 TEST(FailureText, showsThreeUnlessAllAreAskedFor)
