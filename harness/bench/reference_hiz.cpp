@@ -87,7 +87,7 @@ TracerAnswer judgeEnd(const DepthImage& image, const YardstickRay& ray, const Sc
     const int x = std::clamp(static_cast<int>(end.x), 0, image.width() - 1);
     const int y = std::clamp(static_cast<int>(end.y), 0, image.height() - 1);
     const double surface = image.depth(x, y);
-    const bool isSeen = std::isfinite(surface) && glm::dot(image.normalWS(x, y), ray.dirWS) < 0;
+    const bool isSeen = std::isfinite(surface) && glm::dot(image.normalWS(x, y), ray.dirWS) <= 0;
     const bool isThin = std::abs(path.depth(t) - surface) <= thickness;
     if (!isSeen || !isThin) return makeNoHit(fetches + 1, iterations);
     return makeHit(path, t, fetches + 1, iterations);

@@ -36,7 +36,6 @@ struct YardstickScene {
     GBuffer gbuffer;                // device depth and normal
     std::vector<YardstickRay> rays; // row by row
     double depthError = 0;          // affine depth by which the depth buffer may be wrong (PatchTracerSettings)
-    double depthErrorShare = 0;     // and as a share of the depth
     uint64_t serial = 0;            // no two scenes of a process have the same; 0: none
 };
 

@@ -100,7 +100,13 @@ void disturbDepths(Disturbance disturbance, YardstickScene& scene)
             const double share = random.next(1 - kNoiseShare, 1 + kNoiseShare);
             if (depth != cleared) depth = computeDeviceDepth(camera, computeLinearDepth(camera, depth) * share);
         }
-        scene.depthErrorShare = kNoiseShare;
+        double sum = 0, surfaces = 0; // the tracer takes one bound for the whole image: that of its mean affine depth
+        for (const double depth : depths) {
+            if (depth == cleared) continue;
+            sum += 1 / computeLinearDepth(camera, depth);
+            surfaces += 1;
+        }
+        scene.depthError = surfaces > 0 ? kNoiseShare * sum / surfaces : 0;
         return;
     }
     const double steps = disturbance == Disturbance::kDepth16 ? 65535.0 : 16777215.0;

@@ -80,7 +80,8 @@ struct PatchWalk {
     ScreenRay ray;
     ScreenRay lifted; // towards the eye by the tolerance: what is compared with planes
     ivec2 startPixel;
-    bool stands; // on the plane of the start pixel
+    bool stands;      // on the plane of the start pixel
+    float depthError; // of the settings, not negative
 };
 
 struct PatchState {
@@ -207,7 +208,7 @@ PatchWalk makePatchWalk(ScreenRay ray, ivec2 startPixel, float depthError)
     ScreenRay lifted = ray;
     lifted.startAffineDepth = liftAffineDepth(start, depthError);
     lifted.deltaAffineDepth = liftAffineDepth(end, depthError) - lifted.startAffineDepth;
-    return PatchWalk(settled, lifted, startPixel, stands);
+    return PatchWalk(settled, lifted, startPixel, stands, depthError);
 }
 
 // Where the ray is at s, inside a cell: rounding may put it just outside, where the cell's slack says nothing.
@@ -297,7 +298,9 @@ bool doesSurfaceGoOn(PatchWalk walk, PatchCell cell, ivec2 pixel, PixelEntry ent
     float perPixel = 1.0 / max(max(abs(delta.x), abs(delta.y)), 1e-20);
     float bend = abs(dot(cell.surface.gradient - before.gradient, delta)) * perPixel;
     float nearing = (walk.ray.deltaAffineDepth - dot(cell.surface.gradient, delta)) * perPixel;
-    return nearing < 0.0 && -cell.frontAtEnter <= -nearing && rise <= 0.5 * bend;
+    // Both depths may be wrong, and both planes' slopes with them.
+    float error = 2.0 * walk.depthError;
+    return nearing < error && -cell.frontAtEnter <= error - nearing && rise <= error + 0.5 * bend;
 }
 
 PixelTest makePixelHit(PatchWalk walk, PatchCell cell, PatchState state, float clearance)
@@ -393,11 +396,13 @@ PatchState descendPatch(PatchWalk walk, PatchCell cell, PatchState state, float 
     return PatchState(pixel, chooseFinerLevel(walk, cell, state.level), state.inFront, state.hidden, state.clearance);
 }
 
-// Share of hits that are right, measured (docs/tracer.md).
+// Share of hits that are right, measured (docs/tracer.md): two straight lines over the logarithm of the clearance.
 float computeConfidence(float clearance)
 {
-    if (clearance > 0.5 * kNoClearance) return 0.997;
-    return 1.0 / (1.0 + exp(-(1.9 + 1.2 * log(max(clearance, 1e-4)))));
+    if (clearance > 0.5 * kNoClearance) return 0.998;
+    float logarithm = log(max(clearance, 1e-4));
+    float logit = min(2.2 + 1.3 * logarithm, 3.25 + 2.5 * logarithm);
+    return min(1.0 / (1.0 + exp(-logit)), 0.995);
 }
 
 PatchStep makePatchStep(View view, PatchWalk walk, PatchCell cell, int level, int kind, int iteration)
