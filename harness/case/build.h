@@ -20,6 +20,7 @@ void buildRecorded(const TableReader& top, Case& testCase);
 void buildMaterial(const TableReader& top, Case& testCase);
 void buildProjection(const TableReader& top, Case& testCase);
 void buildProbes(const TableReader& top, Case& testCase);
+void buildProfile(const TableReader& top, Case& testCase);   // after buildScene and buildMaterial
 void buildSky(const TableReader& top, Case& testCase);       // after buildScene
 void buildHierarchy(const TableReader& top, Case& testCase); // after buildProbes
 void buildExpectations(const Node& root, const ToleranceLookup& findTolerance, Case& testCase);

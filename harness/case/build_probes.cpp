@@ -125,6 +125,12 @@ Probe buildProbe(const Node& node, const Case& testCase)
     probe.multiplier = table.number("multiplier");
     probe.importance = table.integer("importance");
     probe.distanceBasedRoughness = table.boolean("distance_based_roughness");
+    probe.boxProjection = table.boolean("box_projection");
+    if (table.has("rgbm")) {
+        const TableReader rgbm = table.table("rgbm");
+        probe.rgbm = RgbmDecoding{rgbm.number("alpha"), rgbm.number("range"), rgbm.number("exponent"),
+                                  rgbm.number("alpha_weight")};
+    }
     if (probe.kind == ProbeKind::kPlanar) {
         requireSight(table, "mirror", "environment");
         probe.mirror = buildMirror(table, testCase, probe.influence.center);
@@ -140,7 +146,6 @@ Probe buildProbe(const Node& node, const Case& testCase)
 
 void buildProbes(const TableReader& top, Case& testCase)
 {
-    testCase.probeProfile = static_cast<ProbeProfile>(top.choice("probe_profile"));
     testCase.dominantDirection = static_cast<DominantDirection>(top.choice("dominant_direction"));
     for (const Node& node : top.find("probe")->items) {
         if (testCase.probes.size() == static_cast<size_t>(kMostProbes)) {

@@ -122,6 +122,7 @@ struct Case {
     Projection projection;
     std::vector<Probe> probes;
     ProbeProfile probeProfile = ProbeProfile::kHdrp;
+    ProfileSettings profile; // all defaults with HDRP's
     DominantDirection dominantDirection = DominantDirection::kSquared;
     SkySettings sky;
     unsigned hierarchy = 0;          // of HierarchyTier; 0: the projection's colour alone

@@ -19,8 +19,32 @@ enum class VolumeShape { kInfinite = 1, kBox = 2, kSphere = 3 };
 
 enum class ProbeKind { kReflection = 0, kPlanar = 1 };
 
-// Which pipeline's rules weigh and read the probes.
-enum class ProbeProfile { kHdrp = 0 };
+// Which pipeline's rules weigh and read the probes: HDRP's; the Built-in pipeline's; URP's as its manual has them, and
+// as its code has them. The values are those of kProbeProfile.
+enum class ProbeProfile { kHdrp = 0, kBuiltIn = 1, kUrpDoc = 2, kUrpUnity = 3 };
+
+// How box projection finds the face ahead: by dividing by both of an axis, or by choosing it first.
+// The values are those of shaders/pass/probe_profiles.glsl.
+enum class BoxProjectionForm { kDivision = 0, kSelect = 1 };
+
+// Settings of the profiles other than HDRP's.
+struct ProfileSettings {
+    bool blending = true;       // false: the object's first probe alone, at full weight
+    bool boxProjection = true;  // of the probes that enable it
+    bool forwardPlus = false;   // urp_unity: no limit of two probes
+    bool halfPrecision = false; // urp_unity: as on mobiles
+    bool exactMip = false;      // what the parabola 1.7r - 0.7r^2 stands for
+    bool gammaSpace = false;    // how RGBM texels are decoded
+    BoxProjectionForm boxProjectionForm = BoxProjectionForm::kDivision;
+};
+
+// The environment's colours are the RGB of texels that all have this alpha.
+struct RgbmDecoding {
+    double alpha = 1.0;
+    double range = 1.0;       // x of the probe's decode constants
+    double exponent = 1.0;    // y
+    double alphaWeight = 1.0; // w: how much alpha counts
+};
 
 // How the middle of a rough reflection's lobe is found: not at all; with the cosine N.V as it is; with its square, as
 // HDRP's code has it.
@@ -94,6 +118,8 @@ struct Probe {
     double multiplier = 1.0;
     int importance = 1;
     bool distanceBasedRoughness = true;
+    bool boxProjection = false; // profiles other than HDRP's
+    std::optional<RgbmDecoding> rgbm;
     Environment environment; // of a reflection probe
     ProbeMirror mirror;      // of a planar one
 };

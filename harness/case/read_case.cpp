@@ -199,6 +199,7 @@ Case buildCase(const Node& root, const fs::path& file, const Node* presets)
         buildRecorded(top, testCase);
     }
     buildProbes(top, testCase);
+    buildProfile(top, testCase);
     buildSky(top, testCase);
     buildHierarchy(top, testCase);
     buildExpectations(

@@ -58,9 +58,12 @@ std::vector<KeySpec> topKeys()
             .says("Tiers that are asked in turn: each takes its weight, what is left goes on."),
         Key("", "probe", kTableList).byDefault("[]").says("Reflection probes, at most 8."),
         Key("", "probe_profile", kChoice)
-            .oneOf({"hdrp"})
+            .oneOf({"hdrp", "builtin", "urp_doc", "urp_unity"})
             .byDefault("\"hdrp\"")
-            .says("Pipeline whose rules order, weigh and read the probes."),
+            .says("Pipeline whose rules order, weigh and read the probes; URP by its manual, or by its code."),
+        Key("", "profile", kTable)
+            .withoutIt("all defaults")
+            .says("Settings of the profiles builtin, urp_doc and urp_unity."),
         Key("", "dominant_direction", kChoice)
             .oneOf({"off", "plain", "squared"})
             .byDefault("\"squared\"")

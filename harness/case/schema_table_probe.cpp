@@ -146,6 +146,49 @@ std::vector<KeySpec> mirrorKeys()
     };
 }
 
+std::vector<KeySpec> rgbmKeys()
+{
+    const auto number = [](std::string_view key, double most, std::string_view summary) {
+        return Key("probe.rgbm", key, kNumber).atLeast(0).atMost(most).byDefault("1.0").says(summary);
+    };
+    return {
+        number("alpha", 1, "Of all texels."),
+        number("range", 65504, "Decode constant x: factor."),
+        number("exponent", 65504, "Decode constant y: power of the alpha, in linear colour space."),
+        number("alpha_weight", 65504, "Decode constant w: how much alpha counts; 0 is not at all."),
+    };
+}
+
+std::vector<KeySpec> profileKeys()
+{
+    return {
+        Key("profile", "blending", kBoolean)
+            .byDefault("true")
+            .says("Probes are mixed; without it the object's first probe alone shows, in full."),
+        Key("profile", "box_projection", kBoolean)
+            .byDefault("true")
+            .says("Probes that enable it are projected on their box; without it none is."),
+        Key("profile", "box_projection_form", kChoice)
+            .oneOf({"division", "select"})
+            .byDefault("\"division\"")
+            .says("By dividing by both faces of an axis, or by choosing the face ahead first."),
+        Key("profile", "forward_plus", kBoolean)
+            .byDefault("false")
+            .says("urp_unity: every probe at the pixel, in order, until their weights reach 0.99."),
+        Key("profile", "half_precision", kBoolean)
+            .byDefault("false")
+            .says("urp_unity: sizes overflow beyond a diagonal of 255.9 m, and are then equal."),
+        Key("profile", "roughness_mip", kChoice)
+            .oneOf({"approximate", "exact"})
+            .byDefault("\"approximate\"")
+            .says("Mip level by 1.7r - 0.7r^2, or by what that stands for."),
+        Key("profile", "color_space", kChoice)
+            .oneOf({"linear", "gamma"})
+            .byDefault("\"linear\"")
+            .says("In gamma space the alpha of RGBM texels has no exponent."),
+    };
+}
+
 } // namespace
 
 std::vector<KeySpec> probeKeys()
@@ -176,12 +219,19 @@ std::vector<KeySpec> probeKeys()
         Key("probe", "distance_based_roughness", kBoolean)
             .byDefault("true")
             .says("Sharper where the reflecting surface is nearer to what it reflects than the capture was."),
+        Key("probe", "box_projection", kBoolean)
+            .byDefault("false")
+            .says("builtin and urp: the influence's box is what reflections are projected on."),
+        Key("probe", "rgbm", kTable)
+            .withoutIt("the environment is radiance")
+            .says("builtin and urp: the environment's colours are RGBM texels, which are decoded."),
         Key("probe", "environment", kTable)
             .withoutIt("required by reflection")
             .says("What the probe shows; keys of [environment]."),
         Key("probe", "mirror", kTable).withoutIt("required by planar").says("The mirror plane and its capture."),
     };
-    for (std::vector<KeySpec> group : {influenceKeys(), proxyKeys(), mirrorKeys(), environmentKeys()}) {
+    for (std::vector<KeySpec> group :
+         {influenceKeys(), proxyKeys(), mirrorKeys(), rgbmKeys(), environmentKeys(), profileKeys()}) {
         keys.insert(keys.end(), std::make_move_iterator(group.begin()), std::make_move_iterator(group.end()));
     }
     return keys;

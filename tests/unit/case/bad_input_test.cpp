@@ -33,7 +33,7 @@ TEST_F(BadInput, unknownKeysAreAnsweredWithTheNearestName)
                                                    "mean \"material\"? Allowed: schema, name, summary, "
                                                    "tags, use, trace, outputs, backends, timeout, must_fail, camera, "
                                                    "scene, gbuffer, material, projection, hierarchy, probe, "
-                                                   "probe_profile, dominant_direction, sky, expect, "
+                                                   "probe_profile, profile, dominant_direction, sky, expect, "
                                                    "expand, known_failure");
 }
 
