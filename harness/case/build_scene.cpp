@@ -295,6 +295,9 @@ void buildProjection(const TableReader& top, Case& testCase)
                          fmt::format("\"min_level\" is {}; at most \"max_level\", which is {}, is allowed",
                                      projection.hiz.minLevel, projection.hiz.maxLevel));
     }
+    const TableReader linear = table.table("linear");
+    projection.linear = {linear.number("stride"), linear.integer("steps"), linear.integer("max_iterations"),
+                         linear.number("depth_bias"), linear.integer("bisections")};
     projection.screenWeightDistance = table.number("screen_weight_distance");
     projection.screenWeightForm = static_cast<ScreenWeightForm>(table.choice("screen_weight_form"));
 

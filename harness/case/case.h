@@ -20,7 +20,7 @@
 namespace crossray {
 
 enum class RefractionModel { kNone = 0, kSphere = 1, kBox = 2, kThin = 3 };
-enum class ProjectionModel { kNone = 0, kProxyInfinite = 1, kProxyBox = 2, kProxySphere = 3, kHiz = 4 };
+enum class ProjectionModel { kNone = 0, kProxyInfinite = 1, kProxyBox = 2, kProxySphere = 3, kHiz = 4, kLinear = 5 };
 // The text's linear ramp, Unity 2018's smoothed ramp, today's smoothed ramp of half the width (domain, section 2).
 enum class ScreenWeightForm { kLinear = 0, kSmooth2018 = 1, kSmoothToday = 2 };
 
@@ -46,10 +46,19 @@ struct HizSettings { // Unity 2018's defaults
     double depthBias = 1.0; // "depth success bias", the thickness of what the depth buffer shows, metres
 };
 
+struct LinearSettings {
+    double stride = 4; // pixels between samples, where steps is 0
+    int steps = 0;     // samples over the way on screen; 0: by stride
+    int maxIterations = 256;
+    double depthBias = 1.0; // metres
+    int bisections = 0;     // halvings after a crossing
+};
+
 struct Projection {
     ProjectionModel model = ProjectionModel::kNone; // none: only the ray is computed
     ProxyVolume proxy;
     HizSettings hiz;
+    LinearSettings linear;
     double screenWeightDistance = 0.1; // NDC in [0,1]
     ScreenWeightForm screenWeightForm = ScreenWeightForm::kSmooth2018;
 };

@@ -39,12 +39,13 @@ std::vector<KeySpec> projectionKeys()
 {
     return {
         Key("projection", "model", kChoice)
-            .oneOf({"none", "proxy_infinite", "proxy_box", "proxy_sphere", "hiz"})
+            .oneOf({"none", "proxy_infinite", "proxy_box", "proxy_sphere", "hiz", "linear"})
             .byDefault("\"none\"")
             .says("What the ray is projected on; none computes the ray alone."),
         Key("projection", "proxy", kTable)
             .withoutIt("required by proxy_box and proxy_sphere")
             .says("The proxy volume."),
+        Key("projection", "linear", kTable).withoutIt("all defaults").says("Settings of the linear march."),
         Key("projection", "min_level", kInteger)
             .atLeast(0)
             .atMost(14)
@@ -83,6 +84,31 @@ std::vector<KeySpec> projectionKeys()
         Key("projection.proxy", "rotation", kRotation)
             .withoutIt("none")
             .says("World from proxy: Euler degrees [x, y, z], or { axis, degrees }."),
+        Key("projection.linear", "stride", kNumber)
+            .above(0)
+            .atMost(16384)
+            .byDefault("4.0")
+            .says("Pixels between samples along the longer axis, where steps is 0."),
+        Key("projection.linear", "steps", kInteger)
+            .atLeast(0)
+            .atMost(65535)
+            .byDefault("0")
+            .says("Equal parts into which the way to the image's border is cut; 0: by stride."),
+        Key("projection.linear", "max_iterations", kInteger)
+            .atLeast(1)
+            .atMost(65535)
+            .byDefault("256")
+            .says("Samples and halvings after which the answer is unknown."),
+        Key("projection.linear", "depth_bias", kNumber)
+            .atLeast(0)
+            .atMost(1e6)
+            .byDefault("1.0")
+            .says("Thickness of what the depth buffer shows, metres."),
+        Key("projection.linear", "bisections", kInteger)
+            .atLeast(0)
+            .atMost(32)
+            .byDefault("0")
+            .says("Halvings of the stretch in which the ray crossed a surface."),
     };
 }
 

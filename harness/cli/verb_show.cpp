@@ -121,6 +121,14 @@ void printProjection(const Projection& projection)
         fmt::print("projection HiZ, levels {} to {}, {} iterations, depth bias {:g} m", projection.hiz.minLevel,
                    projection.hiz.maxLevel, projection.hiz.maxIterations, projection.hiz.depthBias);
         break;
+    case ProjectionModel::kLinear: {
+        const LinearSettings& linear = projection.linear;
+        fmt::print("projection linear, {}, {} iterations, {} bisections, depth bias {:g} m",
+                   linear.steps > 0 ? fmt::format("{} steps", linear.steps)
+                                    : fmt::format("a step each {:g} px", linear.stride),
+                   linear.maxIterations, linear.bisections, linear.depthBias);
+        break;
+    }
     }
     fmt::print(", screen weight over {:g}\n", projection.screenWeightDistance);
 }

@@ -52,6 +52,15 @@ struct RayEnd {
 };
 RayEnd projectOnProxy(const CameraFrame& frame, ProjectionModel model, const ProxyVolume& proxy, const EffectRay& ray);
 
+// Where a linear march finds a surface of one depth: at the first sample, or halved stretch, beyond the true hit.
+struct LinearMarch {
+    int iterations = 0;
+    glm::dvec2 positionSS{0.0};
+    double linearDepth = 0; // of the ray there, metres
+};
+LinearMarch marchOnFacingSurface(const Camera& camera, const LinearSettings& settings, const glm::dvec2& startSS,
+                                 double startDepth, const glm::dvec2& hitSS, double hitDepth);
+
 // Weight in [0,1] of a hit at `uv`; domain, section 2. `distance` in the same unit.
 double screenWeightAt(const glm::dvec2& uv, double distance, ScreenWeightForm form);
 

@@ -83,6 +83,9 @@ void storeAnswer(double* target, Output output, const PixelAnswer& answer)
     case Output::kHitWeight:
         target[0] = answer.hitWeight;
         return;
+    case Output::kIterationCount:
+        target[0] = static_cast<double>(answer.iterations);
+        return;
     case Output::kPathLength:
         target[0] = answer.ray.pathLength;
         return;

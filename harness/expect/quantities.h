@@ -17,6 +17,7 @@ enum class Output : int {
     kHitSuccess = 3,
     kHitReason = 4,
     kPositionNDC = 6,
+    kIterationCount = 8,
     kHitWeight = 11,
     kSampledColor = 12,
     kHitPositionSS = 13,
@@ -32,6 +33,7 @@ struct PixelAnswer {
     double hitDepth = 0;
     glm::dvec2 hitPositionSS{0.0};
     glm::dvec2 positionNDC{0.0}; // x right, y up, [-1,1] on screen
+    int iterations = 0;
     double hitWeight = 0;
     glm::dvec3 radiance{0.0};
 };

@@ -81,18 +81,42 @@ PixelAnswer answerInfiniteProxy(const QuantityInput& input, size_t pixel)
     return answerProxy(input, pixel, ProjectionModel::kProxyInfinite);
 }
 
+bool isMarch(const Case& testCase)
+{
+    const ProjectionModel model = testCase.projection.model;
+    return model == ProjectionModel::kHiz || model == ProjectionModel::kLinear;
+}
+
 // Where the case's projection should end: a proxy by its closed form; a march on the nearest surface that its ray meets
 // in the scene, when the screen shows it.
 PixelAnswer answerWeight(const QuantityInput& input, size_t pixel)
 {
     const Projection& projection = input.testCase.projection;
-    if (projection.model != ProjectionModel::kHiz) return answerProxy(input, pixel, projection.model);
+    if (!isMarch(input.testCase)) return answerProxy(input, pixel, projection.model);
     PixelAnswer answer;
     const TruthPixel& truth = input.truth->pixels[pixel];
     if (truth.screen != ScreenKnowledge::kVisible) return answer;
     const glm::dvec2 size(input.testCase.camera.width, input.testCase.camera.height);
     answer.hitWeight =
         screenWeightAt(truth.hitPositionSS / size, projection.screenWeightDistance, projection.screenWeightForm);
+    return answer;
+}
+
+// Where the screen shows what the ray meets; the case's surfaces there must face the camera.
+PixelAnswer answerLinear(const QuantityInput& input, size_t pixel)
+{
+    PixelAnswer answer;
+    const TruthPixel& truth = input.truth->pixels[pixel];
+    if (truth.screen != ScreenKnowledge::kVisible) return answer;
+    const Camera& camera = input.testCase.camera;
+    const auto width = static_cast<size_t>(camera.width);
+    const glm::dvec2 startSS(static_cast<double>(pixel % width) + 0.5, static_cast<double>(pixel / width) + 0.5);
+    const double startDepth = input.frame.linearDepth(surfaceOf(input, pixel).positionWS);
+    const LinearMarch march = marchOnFacingSurface(camera, input.testCase.projection.linear, startSS, startDepth,
+                                                   truth.hitPositionSS, truth.hitLinearDepth);
+    answer.iterations = march.iterations;
+    answer.hitPositionSS = march.positionSS;
+    answer.hitDepth = march.linearDepth;
     return answer;
 }
 
@@ -128,12 +152,18 @@ std::string refuseReasonOfCast(const Case& testCase, Output output)
 std::string refuseNoProjection(const Case& testCase, Output)
 {
     if (testCase.projection.model != ProjectionModel::kNone) return {};
-    return "the case projects nothing; a proxy or hiz is needed";
+    return "the case projects nothing; a proxy, hiz or linear is needed";
 }
 
-bool isMarch(const Case& testCase)
+bool always(const Case&)
 {
-    return testCase.projection.model == ProjectionModel::kHiz;
+    return true;
+}
+
+std::string refuseOtherThanLinear(const Case& testCase, Output)
+{
+    if (testCase.projection.model == ProjectionModel::kLinear) return {};
+    return "the case does not march linearly; projection linear is needed";
 }
 
 std::string refuseRecorded(const Case& testCase, Output)
@@ -169,8 +199,12 @@ const std::vector<Quantity>& analyticQuantities()
         makeQuantity("proxy_infinite", "65504 m along the case's ray.", projected, nullptr, nullptr,
                      answerInfiniteProxy),
         makeQuantity("screen_weight",
-                     "Weight of the proxy's hit; for hiz, of the true hit where the screen shows it. 0 without a hit.",
+                     "Weight of the proxy's hit; for hiz and linear, of the true hit where the screen shows it. 0 "
+                     "without a hit.",
                      {kHitWeight}, isMarch, refuseNoProjection, answerWeight),
+        makeQuantity("linear_march",
+                     "First sample of the linear march beyond the true hit, on surfaces that face the camera.",
+                     {kHitPositionSS, kHitDepth, kIterationCount}, always, refuseOtherThanLinear, answerLinear),
         makeQuantity(
             "surface_radiance",
             "Radiance of what the case's ray meets in the scene, the sky included; Color: times its screen weight.",

@@ -16,7 +16,7 @@ using ivec4 = glm::ivec4;
 using mat4 = glm::mat4;
 #include "shaders/crossray/shared/pass_params.glsl"
 static_assert(sizeof(PyramidParams) == 3 * 16, "std140 pads nothing");
-static_assert(sizeof(PassParams) == 4 * 64 + (8 + CROSSRAY_MAX_PYRAMID_LEVELS) * 16, "std140 pads nothing");
+static_assert(sizeof(PassParams) == 4 * 64 + (10 + CROSSRAY_MAX_PYRAMID_LEVELS) * 16, "std140 pads nothing");
 } // namespace layout32
 
 #undef CROSSRAY_SHARED_PASS_PARAMS_GLSL

@@ -62,6 +62,9 @@ Params fillPassParams(const Case& testCase, const std::vector<PyramidLevel>& lev
     params.proxyCenterWS = Vec4(glm::dvec4(projection.proxy.center, 0.0));
     params.proxyExtents = Vec4(glm::dvec4(projection.proxy.halfExtents, projection.proxy.radius));
     params.tracing = Vec4(glm::dvec4(projection.hiz.depthBias, projection.screenWeightDistance, 0.0, 0.0));
+    params.linearTracing = Vec4(glm::dvec4(projection.linear.stride, projection.linear.depthBias, 0.0, 0.0));
+    params.linearLimits =
+        glm::ivec4(projection.linear.steps, projection.linear.maxIterations, projection.linear.bisections, 0);
     params.hizLimits = glm::ivec4(projection.hiz.minLevel, projection.hiz.maxLevel, projection.hiz.maxIterations,
                                   static_cast<int>(levels.size()));
     params.record = glm::ivec4(query.x, query.y, query.stepCapacity, 0);

@@ -6,6 +6,7 @@
 
 #include "crossray/core/view.glsl"
 #include "crossray/project/hiz.glsl"
+#include "crossray/project/linear.glsl"
 #include "crossray/project/proxy.glsl"
 #include "crossray/project/screen_ray.glsl"
 #include "pass/record_layout.glsl"
@@ -34,12 +35,19 @@ void recordStep(RecordedStep step)
     storeRecordValue(first + kRecordStepCell, vec4(vec2(step.cell), vec2(step.cellSizeSS)));
 }
 
-// The library's hook.
+// The library's hooks.
 void recordHizStep(HizStep step)
 {
     recordStep(RecordedStep(step.iteration, step.level, step.cell, step.cellSizeSS, step.positionSS,
                             step.rayLinearDepth, step.nearestLinearDepth, step.farthestLinearDepth,
                             step.thickLinearDepth, step.intersectionKind));
+}
+
+void recordLinearStep(LinearStep step)
+{
+    recordStep(RecordedStep(step.iteration, 0, ivec2(floor(step.positionSS)), ivec2(1, 1), step.positionSS,
+                            step.rayLinearDepth, step.surfaceLinearDepth, step.surfaceLinearDepth,
+                            step.surfaceLinearDepth + params.linearTracing.y, step.intersectionKind));
 }
 
 void recordProxyHit(ProxyHit hit)
@@ -60,8 +68,10 @@ void recordRay(View view, vec3 originWS, vec3 dirWS, float pathLength)
     storeRecordValue(kRecordDirSS, vec4(ray.deltaSS * share, ray.deltaAffineDepth * share, runs ? way : 0.0));
     storeRecordValue(kRecordOriginWS, vec4(originWS, 0.0));
     storeRecordValue(kRecordDirWS, vec4(dirWS, 0.0));
-    storeRecordValue(kRecordLimits, vec4(float(params.hizLimits.x), float(params.hizLimits.y),
-                                         float(params.hizLimits.z), params.tracing.x));
+    bool isLinear = kProjectionModel == kTracingModelLinear;
+    storeRecordValue(kRecordLimits, isLinear ? vec4(0.0, 0.0, float(params.linearLimits.y), params.linearTracing.y)
+                                             : vec4(float(params.hizLimits.x), float(params.hizLimits.y),
+                                                    float(params.hizLimits.z), params.tracing.x));
 }
 
 #endif

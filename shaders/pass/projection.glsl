@@ -1,14 +1,16 @@
 // What a pixel's ray meets: a proxy's surface or, in screen space, a surface that the depth buffer shows. kProjectionModel has the
-// tracing models of crossray/shared/outputs.glsl. Hooks: loadPyramidCell, and the block params.
+// tracing models of crossray/shared/outputs.glsl. Hooks: fetchDeviceDepth, loadPyramidCell, and the block params.
 #ifndef PASS_PROJECTION_GLSL
 #define PASS_PROJECTION_GLSL
 
 #include "crossray/core/view.glsl"
 #include "crossray/project/hiz.glsl"
+#include "crossray/project/linear.glsl"
 #include "crossray/project/proxy.glsl"
 #include "crossray/refract/refraction.glsl"
 #include "crossray/shared/outputs.glsl"
 #include "pass/pixel_record.glsl"
+#include "pass/view_of_params.glsl"
 
 // The library's hooks for the pyramid, over one buffer of cells.
 int depthPyramidLevelCount() { return params.hizLimits.w; }
@@ -17,6 +19,14 @@ vec2 fetchDepthPyramid(ivec2 cell, int level)
 {
     ivec4 layoutOfLevel = params.pyramidLevels[level];
     return loadPyramidCell(layoutOfLevel.x + cell.y * layoutOfLevel.y + cell.x);
+}
+
+// The depth of a pixel, for the linear march.
+float fetchLinearDepth(ivec2 pixel)
+{
+    View view = loadView();
+    float deviceDepth = fetchDeviceDepth(pixel);
+    return choose(isClearedDepth(view, deviceDepth), kNoSurfaceDepth, linearDepthFromDevice(view, deviceDepth));
 }
 
 // What a pixel knows in the end; each debug mode shows a part of it.
@@ -68,6 +78,16 @@ PixelAnswer answerByHiz(View view, RefractionExit ray)
                        result.hitClass == kHitClassHit ? 1.0 : 0.0);
 }
 
+PixelAnswer answerByLinear(View view, RefractionExit ray)
+{
+    LinearSettings settings = LinearSettings(params.linearTracing.x, params.linearLimits.x, params.linearLimits.y,
+                                             params.linearTracing.y, params.linearLimits.z);
+    LinearResult result = traceLinear(view, ray.positionWS, ray.dirWS, settings);
+    return PixelAnswer(result.hitClass, result.reason, ray.positionWS, ray.dirWS, ray.pathLength, result.positionSS,
+                       result.hitClass == kHitClassHit ? result.linearDepth : 0.0, result.iterations, 0,
+                       result.intersectionKind, result.hitClass == kHitClassHit ? 1.0 : 0.0);
+}
+
 // What the ray of a pixel meets, by the variant's model. `positionSS` is the pixel's own, where a ray that is not cast ends.
 PixelAnswer projectRay(View view, RefractionExit ray, vec2 positionSS)
 {
@@ -76,6 +96,7 @@ PixelAnswer projectRay(View view, RefractionExit ray, vec2 positionSS)
                            0, 0, 0.0);
     }
     if (kProjectionModel == kTracingModelHiz) return answerByHiz(view, ray);
+    if (kProjectionModel == kTracingModelLinear) return answerByLinear(view, ray);
     if (kProjectionModel != kTracingModelNone) return answerByProxy(view, ray);
     // Only the ray is asked for: nothing is cast, so nothing is hit or missed.
     return PixelAnswer(kHitClassNoRaycast, kHitReasonNone, ray.positionWS, ray.dirWS, ray.pathLength, positionSS,

@@ -48,6 +48,7 @@ const int kTracingModelProxyInfinite = 1;
 const int kTracingModelProxyBox = 2;
 const int kTracingModelProxySphere = 3;
 const int kTracingModelHiz = 4;
+const int kTracingModelLinear = 5;
 
 // Intersection kinds: the values of IntersectionKind.
 const int kIntersectionNone = 0;  // the ray crossed the cell without meeting anything

@@ -16,7 +16,9 @@ struct PassParams {
     vec4 proxyCenterWS;     // xyz: metres
     vec4 proxyExtents;      // xyz: half extents of the box, w: radius of the sphere; metres
     vec4 tracing;           // depth bias in metres, screen weight distance in UV, unused, unused
+    vec4 linearTracing;     // stride in pixels, depth bias in metres, unused, unused
     ivec4 hizLimits;        // min level, max level, max iterations, levels in the pyramid
+    ivec4 linearLimits;     // steps, max iterations, bisections, unused
     ivec4 record;           // pixel (x, y) that is recorded, steps that its record holds, unused
     ivec4 pyramidLevels[CROSSRAY_MAX_PYRAMID_LEVELS]; // first cell's index, width, height, unused
 };
