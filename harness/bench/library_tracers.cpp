@@ -74,7 +74,7 @@ std::vector<TracerMethod> libraryTracers(double thickness)
     std::vector<TracerMethod> methods;
     for (const double caution : {0.0, 0.25, 0.4, 0.5, 0.7, 1.0, 2.0}) {
         methods.push_back(
-            {fmt::format("planes, caution {}", caution), [caution](const YardstickScene& scene) -> Tracer {
+            {fmt::format("patches, caution {}", caution), [caution](const YardstickScene& scene) -> Tracer {
                  const auto depthError = static_cast<float>(scene.depthError);
                  loadPatchTracer(makeTracerImage(scene), depthError);
                  return [caution, depthError](const YardstickRay& ray) {

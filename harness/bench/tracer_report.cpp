@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <array>
 
 namespace crossray {
@@ -13,9 +14,10 @@ struct Column {
     const char* name;
     double TracerScore::*value;
 };
-constexpr std::array<Column, 10> kColumns{{{"recall", &TracerScore::recall},
+constexpr std::array<Column, 11> kColumns{{{"recall", &TracerScore::recall},
                                            {"precision", &TracerScore::precision},
                                            {"falseShare", &TracerScore::falseShare},
+                                           {"wrong", &TracerScore::wrong},
                                            {"medianPixels", &TracerScore::medianPixels},
                                            {"p95Pixels", &TracerScore::p95Pixels},
                                            {"medianDepthError", &TracerScore::medianDepth},
@@ -79,6 +81,63 @@ std::string formatTracerCsv(std::span<const MeasuredTracer> rows)
         text += '\n';
     }
     return text;
+}
+
+std::vector<Chart> makeTracerCharts(const TracerReportHead& head, std::span<const MeasuredTracer> rows)
+{
+    const YardstickOptions& options = head.options;
+    const bool isCase = !head.scene.empty();
+    std::string id =
+        isCase ? head.scene : fmt::format("{}_{}x{}", nameOf(options.family), options.width, options.height);
+    std::string title = isCase ? head.scene
+                               : fmt::format("{}, seeds {} to {}, {}x{}", nameOf(options.family), options.firstSeed,
+                                             options.lastSeed, options.width, options.height);
+    if (!isCase && options.disturbance != Disturbance::kNone) {
+        id += fmt::format("_{}", nameOf(options.disturbance));
+        title += fmt::format(", {}", nameOf(options.disturbance));
+    }
+    std::replace(id.begin(), id.end(), '/', '_');
+    Chart cost{"tracers_" + id,
+               "Screen-space tracers: " + title,
+               "reads of the depth buffer or its pyramid, a ray",
+               "share of all rays that are answered wrongly",
+               {}};
+    Chart group{"tracers_of_32_" + id,
+                "What a GPU pays: " + title,
+                "reads a ray, the largest of 32 neighbours (mean)",
+                "share of all rays that are answered wrongly",
+                {}};
+    Chart knob{"tracers_false_" + id,
+               "Missed against false hits: " + title,
+               "false hits: share of the unanswerable rays that are claimed",
+               "missed: share of the answerable rays without a right hit",
+               {}};
+    for (const MeasuredTracer& tracer : rows) {
+        const TracerScore& m = tracer.row.mean;
+        const bool isBound = tracer.row.name.starts_with("oracle");
+        cost.points.push_back({tracer.row.name, m.fetches, m.wrong, isBound});
+        group.points.push_back({tracer.row.name, m.groupFetches, m.wrong, isBound});
+        if (!isBound) knob.points.push_back({tracer.row.name, m.falseShare, 1 - m.recall});
+    }
+    return {cost, group, knob};
+}
+
+std::string formatTracerReliability(const TracerReportHead& head, std::span<const MeasuredTracer> rows)
+{
+    std::vector<ReliabilitySeries> series;
+    for (const MeasuredTracer& tracer : rows) {
+        if (tracer.reliability.empty() || !series.empty()) continue; // the most greedy setting shows the whole range
+        ReliabilitySeries made{tracer.row.name, {}};
+        for (const ReliabilityBin& bin : tracer.reliability)
+            made.dots.push_back({bin.confidence, bin.right, bin.count});
+        series.push_back(std::move(made));
+    }
+    const YardstickOptions& options = head.options;
+    const std::string scene = head.scene.empty()
+                                  ? fmt::format("{}, seeds {} to {}, {}x{}", nameOf(options.family), options.firstSeed,
+                                                options.lastSeed, options.width, options.height)
+                                  : head.scene;
+    return formatReliabilitySvg("Confidence: " + scene, series);
 }
 
 } // namespace crossray

@@ -32,9 +32,10 @@ struct Column {
     double TracerScore::*value;
     bool moreIsBetter;
 };
-constexpr std::array<Column, 10> kColumns{{{&TracerScore::recall, true},
+constexpr std::array<Column, 11> kColumns{{{&TracerScore::recall, true},
                                            {&TracerScore::precision, true},
                                            {&TracerScore::falseShare, false},
+                                           {&TracerScore::wrong, false},
                                            {&TracerScore::medianPixels, false},
                                            {&TracerScore::p95Pixels, false},
                                            {&TracerScore::medianDepth, false},
@@ -86,6 +87,7 @@ TracerScore scoreTracer(const YardstickScene& scene, const Tracer& tracer, std::
     score.recall = share(right, answerable, 1);
     score.precision = share(right, claimed, 1);
     score.falseShare = share(falseHits, rays - answerable, 0);
+    score.wrong = share(answerable - right + falseHits, rays, 0);
     score.medianPixels = percentile(pixels, 0.5);
     score.p95Pixels = percentile(pixels, 0.95);
     score.medianDepth = percentile(depths, 0.5);

@@ -87,6 +87,7 @@ struct TracerScore {
     double recall = 0;       // right, of the answerable
     double precision = 0;    // right, of the claimed
     double falseShare = 0;   // claimed, of the unanswerable
+    double wrong = 0;        // answerable rays without a right hit and unanswerable ones with a hit, of all rays
     double medianPixels = 0; // error of the right ones
     double p95Pixels = 0;    // 95th percentile
     double medianDepth = 0;  // relative error of their depth

@@ -271,6 +271,7 @@ void addTracers(CLI::App& bench, CommandLine& line)
     verb.add_option("--threads", options.threads, "Default: 2")->type_name("N")->check(CLI::Range(1, 256));
     verb.add_option("--json", options.json, "The figures as JSON")->type_name("FILE");
     verb.add_option("--csv", options.csv, "The figures as CSV")->type_name("FILE");
+    verb.add_option("--charts", options.charts, "Charts as SVG")->type_name("DIR");
     verb.callback([&line] { line.verb = [&line] { return benchTracers(line.global, line.tracers); }; });
 }
 

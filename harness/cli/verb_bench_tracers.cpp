@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
 
 namespace crossray {
 
@@ -62,14 +61,6 @@ double chooseThickness(const TracersVerbOptions& options, int height)
     return height >= 720 ? 0.2 : 0.05;
 }
 
-void writeFile(const std::string& path, const std::string& text)
-{
-    if (path.empty()) return;
-    std::ofstream file(path);
-    file << text;
-    if (!file.flush()) throw InputError(fmt::format("{}: cannot be written", path));
-}
-
 std::vector<TracerMethod> makeMethods(double thickness, const std::string& filter)
 {
     std::vector<TracerMethod> methods;
@@ -112,8 +103,14 @@ int benchTracers(const GlobalOptions& global, const TracersVerbOptions& options)
         fmt::print("{}, thickness {} m\n\n", head.scene, head.thickness);
     }
     fmt::print("{}", formatTracerTable(rows));
-    writeFile(options.json, formatTracerJson(head, rows));
-    writeFile(options.csv, formatTracerCsv(rows));
+    if (!options.json.empty()) writeTextFile(options.json, formatTracerJson(head, rows));
+    if (!options.csv.empty()) writeTextFile(options.csv, formatTracerCsv(rows));
+    if (!options.charts.empty()) {
+        const std::vector<Chart> charts = makeTracerCharts(head, rows);
+        writeCharts(options.charts, charts);
+        writeTextFile(options.charts + "/reliability_" + charts[0].id.substr(8) + ".svg",
+                      formatTracerReliability(head, rows));
+    }
     fmt::print("\n{} tracers, {} scenes\n", rows.size(), rows.front().row.scenes);
     return static_cast<int>(ExitCode::kAsExpected);
 }

@@ -114,6 +114,7 @@ struct TracersVerbOptions {
     int stride = 4;
     int threads = 2;
     std::string json, csv; // files; empty: none
+    std::string charts;    // folder; empty: none
 };
 int benchTracers(const GlobalOptions& global, const TracersVerbOptions& options);
 

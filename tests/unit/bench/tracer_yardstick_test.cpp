@@ -113,7 +113,7 @@ TEST(TracerYardstick, TracersKeepTheirWorth)
     }
     const TracerScore* last = nullptr;
     for (const char* name :
-         {"planes, caution 0.25", "planes, caution 0.4", "planes, caution 0.5", "planes, caution 1"}) {
+         {"patches, caution 0.25", "planes, caution 0.4", "planes, caution 0.5", "planes, caution 1"}) {
         const TracerScore& score = found.at(name);
         EXPECT_GT(score.recall, 0.93) << name;
         EXPECT_GT(score.precision, 0.975) << name;
@@ -127,12 +127,12 @@ TEST(TracerYardstick, TracersKeepTheirWorth)
         }
         last = &score;
     }
-    EXPECT_LT(found.at("planes, caution 0.4").falseShare, found.at("HiZ, levels 0 to 6, 512 steps").falseShare);
+    EXPECT_LT(found.at("patches, caution 0.4").falseShare, found.at("HiZ, levels 0 to 6, 512 steps").falseShare);
     EXPECT_GT(found.at("every pixel, nearest depth").recall, 0.9);
     EXPECT_GT(found.at("every pixel, nearest depth").fetches, 3 * found.at("closest-depth pyramid, 256 steps").fetches);
     EXPECT_GT(found.at("256 strides, 5 bisections").recall, found.at("64 strides, 5 bisections").recall);
     const TracerScore& oracle = found.at("oracle: what the depth buffer shows");
-    EXPECT_GT(oracle.recall, found.at("planes, caution 0.25").recall);
+    EXPECT_GT(oracle.recall, found.at("patches, caution 0.25").recall);
     EXPECT_EQ(oracle.precision, 1);
     EXPECT_EQ(oracle.falseShare, 0);
 }

@@ -1,0 +1,374 @@
+#include "harness/bench/chart.h"
+
+#include "harness/base/error.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+namespace crossray {
+
+namespace {
+
+constexpr double kWidth = 880, kHeight = 560;
+constexpr double kLeft = 78, kRight = 24, kTop = 48, kBottom = 62;
+constexpr double kZeroBand = 26; // pixels below the axis, for errors of 0
+constexpr double kTextHeight = 13, kTextWidth = 6.1;
+constexpr const char* kFrontColor = "#1f5fa8";
+constexpr const char* kPaleColor = "#b9bec6";
+constexpr std::array<const char*, 4> kSeriesColors{"#1f5fa8", "#c2571a", "#2f8f4e", "#7a4fa3"};
+
+std::string escape(const std::string& text)
+{
+    std::string safe;
+    for (const char c : text) {
+        if (c == '&')
+            safe += "&amp;";
+        else if (c == '<')
+            safe += "&lt;";
+        else if (c == '>')
+            safe += "&gt;";
+        else if (c == '"')
+            safe += "&quot;";
+        else
+            safe += c;
+    }
+    return safe;
+}
+
+bool isDrawn(const ChartPoint& point)
+{
+    return std::isfinite(point.cost) && std::isfinite(point.error) && point.cost > 0 && point.error >= 0;
+}
+
+// A logarithmic axis over whole 1-2-5 steps around the values.
+struct LogAxis {
+    double low = 1, high = 10;
+    double begin = 0, end = 1; // pixels of low and high
+
+    double place(double value) const { return begin + (end - begin) * std::log(value / low) / std::log(high / low); }
+    std::vector<double> ticks() const
+    {
+        std::vector<double> found;
+        const bool isWide = high / low > 2000;
+        for (int decade = static_cast<int>(std::floor(std::log10(low))); std::pow(10, decade) <= high * 1.001;
+             ++decade) {
+            for (const double step : {1.0, 2.0, 5.0}) {
+                const double value = step * std::pow(10, decade);
+                if (isWide && step != 1.0) continue;
+                if (value >= low * 0.999 && value <= high * 1.001) found.push_back(value);
+            }
+        }
+        return found;
+    }
+};
+
+double stepBelow(double value)
+{
+    const double decade = std::pow(10, std::floor(std::log10(value)));
+    for (const double step : {5.0, 2.0, 1.0}) {
+        if (step * decade <= value * 0.999) return step * decade;
+    }
+    return 0.5 * decade;
+}
+
+double stepAbove(double value)
+{
+    const double decade = std::pow(10, std::floor(std::log10(value)));
+    for (const double step : {1.0, 2.0, 5.0, 10.0}) {
+        if (step * decade >= value * 1.001) return step * decade;
+    }
+    return 20 * decade;
+}
+
+LogAxis makeAxis(const std::vector<double>& values, double begin, double end)
+{
+    LogAxis axis;
+    axis.begin = begin;
+    axis.end = end;
+    if (values.empty()) return axis;
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    axis.low = stepBelow(*low);
+    axis.high = stepAbove(*high);
+    return axis;
+}
+
+std::string formatNumber(double value)
+{
+    return value >= 1e-4 && value < 1e5 ? fmt::format("{:g}", value) : fmt::format("{:.0e}", value);
+}
+
+struct Box {
+    double x0, y0, x1, y1;
+    bool overlaps(const Box& other) const { return x0 < other.x1 && other.x0 < x1 && y0 < other.y1 && other.y0 < y1; }
+};
+
+// Finds a free place for each label around its point, nearest first; draws a leader where it is not beside the point.
+class Labels {
+  public:
+    void block(double x, double y, double radius)
+    {
+        taken_.push_back({x - radius, y - radius, x + radius, y + radius});
+    }
+    std::string add(double x, double y, const std::string& text, const char* color)
+    {
+        const double width = kTextWidth * static_cast<double>(text.size());
+        for (double distance = 0; distance < 260; distance += kTextHeight) {
+            for (const double side : {1.0, -1.0}) {
+                for (const double lift : {0.0, -1.0, 1.0}) {
+                    if (distance > 0 && lift == 0.0) continue;
+                    const double left = side > 0 ? x + 8 + 0.3 * distance : x - 8 - 0.3 * distance - width;
+                    const double baseline = y + 4 + lift * distance;
+                    const Box box{left, baseline - kTextHeight + 2, left + width, baseline + 3};
+                    if (isFree(box)) return place(x, y, box, baseline, text, color, distance > 0);
+                }
+            }
+        }
+        return "";
+    }
+
+  private:
+    bool isFree(const Box& box) const
+    {
+        if (box.x0 < kLeft + 2 || box.x1 > kWidth - 4 || box.y0 < kTop - 6 || box.y1 > kHeight - kBottom) return false;
+        return std::none_of(taken_.begin(), taken_.end(), [&](const Box& other) { return box.overlaps(other); });
+    }
+    std::string place(double x, double y, const Box& box, double baseline, const std::string& text, const char* color,
+                      bool hasLeader)
+    {
+        taken_.push_back(box);
+        std::string svg;
+        if (hasLeader) {
+            const double end = box.x0 > x ? box.x0 - 2 : box.x1 + 2;
+            svg += fmt::format("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\" stroke=\"{}\" stroke-width=\"0.6\"/>\n", x, y,
+                               end, baseline - 4, color);
+        }
+        return svg + fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"11\" fill=\"{}\" stroke=\"#ffffff\" "
+                                 "stroke-width=\"3\" paint-order=\"stroke\">{}</text>\n",
+                                 box.x0, baseline, color, escape(text));
+    }
+    std::vector<Box> taken_;
+};
+
+std::string openSvg(const std::string& title, double width, double height)
+{
+    return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
+                       "font-family=\"DejaVu Sans, Verdana, sans-serif\" fill=\"none\">\n<title>{2}</title>\n"
+                       "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n"
+                       "<text x=\"{3}\" y=\"26\" font-size=\"15\" fill=\"#20242a\">{2}</text>\n",
+                       width, height, escape(title), kLeft);
+}
+
+std::string drawAxes(const Chart& chart, const LogAxis& x, const LogAxis& y, bool hasZeros)
+{
+    const double right = kWidth - kRight, bottom = y.begin;
+    std::string svg;
+    for (const double tick : x.ticks()) {
+        const double at = x.place(tick);
+        svg += fmt::format("<path d=\"M{0:.1f} {1:.1f}V{2}\" stroke=\"#e6e9ee\"/><text x=\"{0:.1f}\" y=\"{3}\" "
+                           "font-size=\"11\" fill=\"#50565f\" text-anchor=\"middle\">{4}</text>\n",
+                           at, bottom, kTop, kHeight - kBottom + 18, formatNumber(tick));
+    }
+    for (const double tick : y.ticks()) {
+        const double at = y.place(tick);
+        svg += fmt::format("<path d=\"M{0} {1:.1f}H{2}\" stroke=\"#e6e9ee\"/><text x=\"{3}\" y=\"{4:.1f}\" "
+                           "font-size=\"11\" fill=\"#50565f\" text-anchor=\"end\">{5}</text>\n",
+                           kLeft, at, right, kLeft - 7, at + 4, formatNumber(tick));
+    }
+    if (hasZeros) {
+        svg += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"#f3f5f8\"/><text x=\"{}\" "
+                           "y=\"{:.1f}\" font-size=\"11\" fill=\"#50565f\" text-anchor=\"end\">0</text>\n",
+                           kLeft, bottom, right - kLeft, kZeroBand, kLeft - 7, bottom + 0.5 * kZeroBand + 4);
+    }
+    svg +=
+        fmt::format("<path d=\"M{0} {1}V{2:.1f}H{3}\" stroke=\"#50565f\"/>\n", kLeft, kTop, kHeight - kBottom, right);
+    svg += fmt::format("<text x=\"{}\" y=\"{}\" font-size=\"12\" fill=\"#20242a\" text-anchor=\"middle\">{}</text>\n",
+                       0.5 * (kLeft + right), kHeight - 14, escape(chart.costLabel));
+    svg += fmt::format("<text transform=\"translate(20 {}) rotate(-90)\" font-size=\"12\" fill=\"#20242a\" "
+                       "text-anchor=\"middle\">{}</text>\n",
+                       0.5 * (kTop + kHeight - kBottom), escape(chart.errorLabel));
+    return svg;
+}
+
+struct Placed {
+    const ChartPoint* point;
+    double x, y;
+    bool isOnFront;
+};
+
+std::string drawFront(std::vector<Placed> placed)
+{
+    std::erase_if(placed, [](const Placed& p) { return !p.isOnFront; });
+    std::sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) { return a.x < b.x; });
+    if (placed.size() < 2) return "";
+    std::string path = fmt::format("M{:.1f} {:.1f}", placed[0].x, placed[0].y);
+    for (size_t i = 1; i < placed.size(); ++i) // what is reached at a cost stays reached until the next point
+        path += fmt::format("H{:.1f}V{:.1f}", placed[i].x, placed[i].y);
+    return fmt::format("<path d=\"{}\" stroke=\"{}\" stroke-width=\"1.4\" stroke-opacity=\"0.6\"/>\n", path,
+                       kFrontColor);
+}
+
+std::string drawPoints(const std::vector<Placed>& placed)
+{
+    Labels labels;
+    std::string svg;
+    for (const Placed& p : placed)
+        labels.block(p.x, p.y, 5);
+    for (const bool front : {true, false}) { // the front's names have the first choice of places
+        for (const Placed& p : placed) {
+            if (p.isOnFront != front) continue;
+            const char* const color = front ? kFrontColor : kPaleColor;
+            const char* const text = front ? "#20242a" : "#8a9099";
+            if (p.point->isBound) {
+                svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"5\" stroke=\"#2f8f4e\" "
+                                   "stroke-width=\"1.6\"/>\n",
+                                   p.x, p.y);
+            } else {
+                svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4.5\" fill=\"{}\"/>\n", p.x, p.y, color);
+            }
+            svg += labels.add(p.x, p.y, p.point->name, text);
+        }
+    }
+    return svg;
+}
+
+} // namespace
+
+std::vector<bool> findParetoFront(std::span<const ChartPoint> points)
+{
+    std::vector<bool> front;
+    for (const ChartPoint& point : points) {
+        const bool isDominated = std::any_of(points.begin(), points.end(), [&](const ChartPoint& other) {
+            const bool isNoWorse = other.cost <= point.cost && other.error <= point.error;
+            const bool isBetter = other.cost < point.cost || other.error < point.error;
+            return isDrawn(other) && !other.isBound && isNoWorse && isBetter;
+        });
+        front.push_back(isDrawn(point) && !point.isBound && !isDominated);
+    }
+    return front;
+}
+
+std::string formatChartSvg(const Chart& chart)
+{
+    const std::vector<bool> front = findParetoFront(chart.points);
+    std::vector<double> costs, errors;
+    bool hasZeros = false;
+    for (const ChartPoint& point : chart.points) {
+        if (!isDrawn(point)) continue;
+        costs.push_back(point.cost);
+        if (point.error > 0) errors.push_back(point.error);
+        hasZeros = hasZeros || point.error == 0;
+    }
+    const LogAxis x = makeAxis(costs, kLeft, kWidth - kRight);
+    const LogAxis y = makeAxis(errors, kHeight - kBottom - (hasZeros ? kZeroBand : 0), kTop);
+    std::vector<Placed> placed;
+    for (size_t i = 0; i < chart.points.size(); ++i) {
+        const ChartPoint& point = chart.points[i];
+        if (!isDrawn(point)) continue;
+        const double height = point.error > 0 ? y.place(point.error) : y.begin + 0.5 * kZeroBand;
+        placed.push_back({&point, x.place(point.cost), height, front[i]});
+    }
+    return openSvg(chart.title, kWidth, kHeight) + drawAxes(chart, x, y, hasZeros) + drawFront(placed) +
+           drawPoints(placed) + "</svg>\n";
+}
+
+std::string formatChartsCsv(std::span<const Chart> charts)
+{
+    std::string text = "chart,method,cost,error,front,bound\n";
+    for (const Chart& chart : charts) {
+        const std::vector<bool> front = findParetoFront(chart.points);
+        for (size_t i = 0; i < chart.points.size(); ++i) {
+            const ChartPoint& point = chart.points[i];
+            text += fmt::format("{},\"{}\",{},{},{:d},{:d}\n", chart.id, point.name, point.cost, point.error,
+                                static_cast<bool>(front[i]), point.isBound);
+        }
+    }
+    return text;
+}
+
+std::string formatChartsJson(std::span<const Chart> charts)
+{
+    nlohmann::ordered_json all = nlohmann::ordered_json::array();
+    for (const Chart& chart : charts) {
+        const std::vector<bool> front = findParetoFront(chart.points);
+        nlohmann::ordered_json points = nlohmann::ordered_json::array();
+        for (size_t i = 0; i < chart.points.size(); ++i) {
+            const ChartPoint& point = chart.points[i];
+            points.push_back({{"name", point.name},
+                              {"cost", point.cost},
+                              {"error", point.error},
+                              {"front", static_cast<bool>(front[i])},
+                              {"bound", point.isBound}});
+        }
+        all.push_back({{"id", chart.id},
+                       {"title", chart.title},
+                       {"cost", chart.costLabel},
+                       {"error", chart.errorLabel},
+                       {"points", points}});
+    }
+    return nlohmann::ordered_json{{"schema", "crossray-charts/1"}, {"charts", all}}.dump(2) + "\n";
+}
+
+void writeTextFile(const std::string& path, const std::string& text)
+{
+    std::ofstream file(path);
+    file << text;
+    if (!file.flush()) throw InputError(fmt::format("{}: cannot be written", path));
+}
+
+void writeCharts(const std::string& folder, std::span<const Chart> charts)
+{
+    std::error_code ignored;
+    std::filesystem::create_directories(folder, ignored);
+    for (const Chart& chart : charts)
+        writeTextFile(folder + "/" + chart.id + ".svg", formatChartSvg(chart));
+}
+
+std::string formatReliabilitySvg(const std::string& title, std::span<const ReliabilitySeries> series)
+{
+    constexpr double kSide = 440;
+    const auto x = [](double value) { return kLeft + kSide * value; };
+    const auto y = [](double value) { return kTop + kSide * (1 - value); };
+    std::string svg = openSvg(title, kLeft + kSide + 220, kTop + kSide + kBottom);
+    for (int i = 0; i <= 10; i += 2) {
+        const double value = 0.1 * i;
+        svg += fmt::format("<path d=\"M{0:.1f} {1:.1f}V{2:.1f}M{3:.1f} {4:.1f}H{5:.1f}\" stroke=\"#e6e9ee\"/><text "
+                           "x=\"{0:.1f}\" y=\"{6:.1f}\" font-size=\"11\" fill=\"#50565f\" "
+                           "text-anchor=\"middle\">{7:g}</text><text x=\"{8:.1f}\" y=\"{9:.1f}\" font-size=\"11\" "
+                           "fill=\"#50565f\" text-anchor=\"end\">{7:g}</text>\n",
+                           x(value), y(0), y(1), x(0), y(value), x(1), y(0) + 18, value, x(0) - 7, y(value) + 4);
+    }
+    svg += fmt::format("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\" stroke=\"#50565f\" stroke-dasharray=\"4 4\"/>\n", x(0),
+                       y(0), x(1), y(1));
+    double row = kTop + 12;
+    for (size_t i = 0; i < series.size(); ++i) {
+        const char* const color = kSeriesColors[i % kSeriesColors.size()];
+        std::string path;
+        for (const ReliabilityDot& dot : series[i].dots) {
+            path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", x(dot.confidence), y(dot.right));
+            const double radius = std::clamp(0.6 * std::sqrt(std::sqrt(dot.count)), 2.0, 12.0);
+            svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\" fill=\"{}\" fill-opacity=\"0.7\"/>\n",
+                               x(dot.confidence), y(dot.right), radius, color);
+        }
+        svg += fmt::format("<path d=\"{}\" stroke=\"{}\" stroke-width=\"1\"/>\n", path, color);
+        svg +=
+            fmt::format("<circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"5\" fill=\"{2}\"/><text x=\"{3:.1f}\" y=\"{4:.1f}\" "
+                        "font-size=\"11\" fill=\"#20242a\">{5}</text>\n",
+                        x(1) + 22, row - 4, color, x(1) + 33, row, escape(series[i].name));
+        row += 18;
+    }
+    svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"12\" fill=\"#20242a\" text-anchor=\"middle\">"
+                       "confidence that was given</text>\n",
+                       x(0.5), y(0) + 42);
+    svg += fmt::format("<text transform=\"translate(20 {:.1f}) rotate(-90)\" font-size=\"12\" fill=\"#20242a\" "
+                       "text-anchor=\"middle\">share of these hits that are right</text>\n",
+                       y(0.5));
+    return svg + "</svg>\n";
+}
+
+} // namespace crossray
