@@ -67,21 +67,38 @@ std::array<float, 3> toFloats(const glm::dvec3& v)
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
+struct PatchKernelSettings {
+    int maxIterations = kMaxIterations;
+    float caution = 0;
+};
+
+Tracer preparePatches(const YardstickScene& scene, const PatchKernelSettings& settings)
+{
+    const auto depthError = static_cast<float>(scene.depthError);
+    loadPatchTracer(makeTracerImage(scene), depthError);
+    return [settings, depthError](const YardstickRay& ray) {
+        return makeAnswer(
+            tracePatchRay(ray.x, ray.y, toFloats(ray.dirWS), settings.maxIterations, settings.caution, depthError));
+    };
+}
+
+Tracer prepareHiz(const YardstickScene& scene, const HizKernelSettings& settings)
+{
+    loadHizTracer(makeTracerImage(scene));
+    return [settings](const YardstickRay& ray) {
+        return makeAnswer(traceHizRay(ray.x, ray.y, toFloats(ray.dirWS), settings));
+    };
+}
+
 } // namespace
 
 std::vector<TracerMethod> libraryTracers(double thickness)
 {
     std::vector<TracerMethod> methods;
     for (const double caution : {0.0, 0.25, 0.4, 0.5, 0.7, 1.0, 2.0}) {
-        methods.push_back(
-            {fmt::format("patches, caution {}", caution), [caution](const YardstickScene& scene) -> Tracer {
-                 const auto depthError = static_cast<float>(scene.depthError);
-                 loadPatchTracer(makeTracerImage(scene), depthError);
-                 return [caution, depthError](const YardstickRay& ray) {
-                     return makeAnswer(tracePatchRay(ray.x, ray.y, toFloats(ray.dirWS), kMaxIterations,
-                                                     static_cast<float>(caution), depthError));
-                 };
-             }});
+        methods.push_back({fmt::format("patches, caution {}", caution), [caution](const YardstickScene& scene) {
+                               return preparePatches(scene, {kMaxIterations, static_cast<float>(caution)});
+                           }});
     }
     const auto bias = static_cast<float>(thickness);
     const std::array<std::pair<std::string, HizKernelSettings>, 4> settings{
@@ -90,14 +107,18 @@ std::vector<TracerMethod> libraryTracers(double thickness)
          {"HiZ, levels 2 to 6, 256 steps", {2, 6, 256, bias}},
          {"HiZ, levels 2 to 6, 32 steps, 1 m", {2, 6, 32, 1}}}}; // Unity 2018's settings
     for (const auto& [name, setting] : settings) {
-        methods.push_back({name, [setting](const YardstickScene& scene) -> Tracer {
-                               loadHizTracer(makeTracerImage(scene));
-                               return [setting](const YardstickRay& ray) {
-                                   return makeAnswer(traceHizRay(ray.x, ray.y, toFloats(ray.dirWS), setting));
-                               };
-                           }});
+        methods.push_back({name, [setting](const YardstickScene& scene) { return prepareHiz(scene, setting); }});
     }
     return methods;
+}
+
+std::optional<Tracer> caseTracer(const Projection& projection, const YardstickScene& scene)
+{
+    if (projection.model == ProjectionModel::kHiz) {
+        const HizSettings& hiz = projection.hiz;
+        return prepareHiz(scene, {hiz.minLevel, hiz.maxLevel, hiz.maxIterations, static_cast<float>(hiz.depthBias)});
+    }
+    return std::nullopt;
 }
 
 } // namespace crossray

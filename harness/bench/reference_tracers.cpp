@@ -270,8 +270,13 @@ std::vector<TracerMethod> referenceTracers(double thickness)
     methods.push_back(makeMethod("every pixel, nearest depth",
                                  [thickness](Image image, Asked ray) { return walkPixels(image, ray, thickness); }));
     methods.push_back(makeMethod("proxy, the room's box", leaveRoom));
-    methods.push_back(makeMethod("oracle: what the depth buffer shows", askOracle));
+    methods.push_back(depthOracle());
     return methods;
+}
+
+TracerMethod depthOracle()
+{
+    return makeMethod("oracle: what the depth buffer shows", askOracle);
 }
 
 } // namespace crossray

@@ -148,5 +148,9 @@ std::vector<TracerMethod> libraryTracers(double thickness);
 // library's are held against. The last is no tracer but a bound: it knows where each ray ends, and claims what the
 // depth buffer shows there.
 std::vector<TracerMethod> referenceTracers(double thickness);
+TracerMethod depthOracle();
+
+// The library's tracer that a case's projection names, with its settings; nothing for a proxy.
+std::optional<Tracer> caseTracer(const Projection& projection, const YardstickScene& scene);
 
 } // namespace crossray

@@ -25,6 +25,7 @@ struct CommandLine {
     TraceOptions trace;
     ThroughputVerbOptions throughput;
     TracersVerbOptions tracers;
+    BenchCasesOptions bench;
     BakeOptions bake;
     CompileVerbOptions compile;
     bool noOptimization = false;
@@ -277,10 +278,32 @@ void addTracers(CLI::App& bench, CommandLine& line)
 
 void addBench(CLI::App& app, CommandLine& line)
 {
-    CLI::App& bench = *app.add_subcommand("bench", "Measure speed and accuracy");
-    bench.require_subcommand(1);
+    CLI::App& bench = *app.add_subcommand("bench", "Measure the accuracy and the cost of each method on cases' scenes");
+    BenchCasesOptions& options = line.bench;
+    bench.require_subcommand(0, 1);
+    bench.add_option("cases", options.cases, "Case files, folders, names, or globs over both")
+        ->type_name("CASE|DIR|GLOB");
+    bench.add_option("--backend", options.backend, "Where; default: lavapipe")->type_name("NAME");
+    bench.add_option("--rounds", options.rounds, "Each runs every method once; the median counts; default: 9")
+        ->type_name("N")
+        ->check(CLI::Range(1, 999));
+    bench.add_option("--budget", options.budget, "Name the cheapest method whose errors are within these bounds")
+        ->type_name("ERROR<=NUMBER,...");
+    bench.add_option("-o,--output", options.output, "Folder for charts, bench.json and bench.csv")->type_name("DIR");
+    bench.add_option("--compare", options.compare, "An earlier bench.json: say what moved, and fail on a loss")
+        ->type_name("BASE.json");
+    bench.add_option("--loss", options.loss, "Share by which something must get worse to be a loss; default: 0.05")
+        ->type_name("SHARE")
+        ->check(CLI::Range(0.0, 1000.0));
     addThroughput(bench, line);
     addTracers(bench, line);
+    bench.callback([&line] {
+        if (line.verb) return; // of a subcommand
+        line.verb = [&line] {
+            if (line.bench.cases.empty()) throw InputError("bench: name a case, or one of tracers and throughput");
+            return benchCases(line.global, line.bench);
+        };
+    });
 }
 
 std::unique_ptr<CLI::App> makeApp(CommandLine& line)

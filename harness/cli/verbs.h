@@ -103,6 +103,17 @@ struct ThroughputVerbOptions {
 };
 int benchThroughput(const GlobalOptions& global, const ThroughputVerbOptions& options);
 
+struct BenchCasesOptions {
+    std::vector<std::string> cases;
+    std::string backend = "lavapipe";
+    int rounds = 9;
+    std::string budget;  // empty: none
+    std::string output;  // folder; empty: none
+    std::string compare; // an earlier bench.json; empty: none
+    double loss = 0.05;  // share that counts as one
+};
+int benchCases(const GlobalOptions& global, const BenchCasesOptions& options);
+
 struct TracersVerbOptions {
     std::string seeds = "1-24";
     std::string size = "1920x1080";

@@ -113,7 +113,7 @@ TEST(TracerYardstick, TracersKeepTheirWorth)
     }
     const TracerScore* last = nullptr;
     for (const char* name :
-         {"patches, caution 0.25", "planes, caution 0.4", "planes, caution 0.5", "planes, caution 1"}) {
+         {"patches, caution 0.25", "patches, caution 0.4", "patches, caution 0.5", "patches, caution 1"}) {
         const TracerScore& score = found.at(name);
         EXPECT_GT(score.recall, 0.93) << name;
         EXPECT_GT(score.precision, 0.975) << name;

@@ -1,0 +1,263 @@
+#include "harness/bench/bench_case.h"
+
+#include "harness/bench/tracer_yardstick.h"
+#include "harness/pass/pass.h"
+#include "harness/run/execute.h"
+#include "harness/run/worker_explain.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace crossray {
+
+namespace {
+
+constexpr int kGroup = 32;
+
+void setOutputs(Case& testCase)
+{
+    testCase.expectations.clear();
+    testCase.outputs.clear();
+    std::vector<const char*> names{"RayDirWS", "HitDepth", "HitSuccess", "IterationCount", "HitPositionSS"};
+    if (testCase.effect == TraceEffect::kRefraction) names.insert(names.end(), {"PathLength", "RayOriginWS"});
+    for (const OutputInfo& output : allOutputs()) {
+        if (std::find(names.begin(), names.end(), output.name) != names.end()) testCase.outputs.push_back(output);
+    }
+}
+
+// The answers of one method, at the size of the truth.
+struct Answers {
+    std::vector<Plane> planes;
+    int scale = 1;
+    const Plane& plane(std::string_view name) const
+    {
+        return *std::find_if(planes.begin(), planes.end(), [&](const Plane& plane) { return plane.name == name; });
+    }
+    double at(const Plane& plane, int x, int y, int channel = 0) const
+    {
+        return plane.at(std::min(x / scale, plane.width - 1), std::min(y / scale, plane.height - 1), channel);
+    }
+};
+
+double meanOf(const std::vector<double>& values)
+{
+    double sum = 0;
+    for (const double value : values)
+        sum += value;
+    return values.empty() ? 0 : sum / static_cast<double>(values.size());
+}
+
+double medianOf(std::vector<double> values)
+{
+    if (values.empty()) return 0;
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+}
+
+double meanOfGroupMaxima(const std::vector<double>& values)
+{
+    std::vector<double> maxima;
+    for (size_t i = 0; i < values.size(); i += kGroup) {
+        const auto begin = values.begin() + static_cast<std::ptrdiff_t>(i);
+        const auto end = values.begin() + static_cast<std::ptrdiff_t>(std::min(i + kGroup, values.size()));
+        maxima.push_back(*std::max_element(begin, end));
+    }
+    return meanOf(maxima);
+}
+
+void judgeReflections(const Truth& truth, const Answers& answers, BenchPoint& point)
+{
+    const Plane& hits = answers.plane("HitSuccess");
+    const Plane& positions = answers.plane("HitPositionSS");
+    const Plane& depths = answers.plane("HitDepth");
+    const Plane& steps = answers.plane("IterationCount");
+    double answerable = 0, right = 0, falseHits = 0, rays = 0;
+    std::vector<double> pixels, depthErrors, iterations;
+    for (int y = 0; y < truth.height; ++y) {
+        for (int x = 0; x < truth.width; ++x) {
+            const TruthPixel& pixel = truth.at(x, y);
+            if (pixel.screen == ScreenKnowledge::kNoRay) continue;
+            rays += 1;
+            iterations.push_back(answers.at(steps, x, y));
+            const bool isHit = answers.at(hits, x, y) == static_cast<double>(HitClass::kHit);
+            if (pixel.screen != ScreenKnowledge::kVisible) {
+                falseHits += isHit;
+                continue;
+            }
+            answerable += 1;
+            depthErrors.push_back(1);
+            if (!isHit) continue;
+            const glm::dvec2 found(answers.at(positions, x, y, 0), answers.at(positions, x, y, 1));
+            const double error = glm::length(static_cast<double>(answers.scale) * found - pixel.hitPositionSS);
+            const double depthError = std::abs(answers.at(depths, x, y) / pixel.hitLinearDepth - 1);
+            depthErrors.back() = std::min(1.0, depthError);
+            if (!(error <= kRightPixels)) continue;
+            right += 1;
+            pixels.push_back(error);
+        }
+    }
+    const auto share = [](double part, double whole) { return whole > 0 ? part / whole : 0.0; };
+    point.errors["Wrong"] = share(answerable - right + falseHits, rays);
+    point.errors["Missed"] = share(answerable - right, answerable);
+    point.errors["False"] = share(falseHits, rays - answerable);
+    point.errors["HitDepth"] = meanOf(depthErrors);
+    point.errors["HitPositionSS"] = medianOf(pixels);
+    point.counters["Iterations"] = meanOf(iterations);
+    point.counters["IterationsOf32"] = meanOfGroupMaxima(iterations);
+}
+
+glm::dvec3 vectorAt(const Answers& answers, const Plane& plane, int x, int y)
+{
+    return {answers.at(plane, x, y, 0), answers.at(plane, x, y, 1), answers.at(plane, x, y, 2)};
+}
+
+void judgeRefractions(const Truth& truth, const Answers& answers, BenchPoint& point)
+{
+    const Plane& directions = answers.plane("RayDirWS");
+    const Plane& origins = answers.plane("RayOriginWS");
+    const Plane& lengths = answers.plane("PathLength");
+    std::vector<double> angles, distances, paths;
+    for (int y = 0; y < truth.height; ++y) {
+        for (int x = 0; x < truth.width; ++x) {
+            const TruthPixel& pixel = truth.at(x, y);
+            if (pixel.screen == ScreenKnowledge::kNoRay) continue;
+            const glm::dvec3 found = vectorAt(answers, directions, x, y);
+            // By both products: the cosine alone has no digits for small angles.
+            angles.push_back(glm::degrees(
+                std::atan2(glm::length(glm::cross(found, pixel.rayDirWS)), glm::dot(found, pixel.rayDirWS))));
+            distances.push_back(glm::length(vectorAt(answers, origins, x, y) - pixel.rayOriginWS));
+            paths.push_back(std::abs(answers.at(lengths, x, y) - pixel.pathLength));
+        }
+    }
+    point.errors["RayDirWS"] = meanOf(angles);
+    point.errors["RayOriginWS"] = meanOf(distances);
+    point.errors["PathLength"] = meanOf(paths);
+}
+
+// A method with its job, and what its runs took.
+struct Runner {
+    Case testCase;
+    Job job;
+    int scale = 1;
+    JobResult last;
+    std::vector<double> milliseconds;
+};
+
+Runner makeRunner(const Case& testCase, const BenchMethod& method, ShaderCompiler& compiler, const Folders& folders,
+                  Precision precision)
+{
+    Runner runner;
+    runner.testCase = testCase;
+    runner.testCase.name += " " + method.name;
+    method.apply(runner.testCase);
+    runner.scale = method.scale;
+    runner.testCase.camera.width = std::max(1, testCase.camera.width / method.scale);
+    runner.testCase.camera.height = std::max(1, testCase.camera.height / method.scale);
+    setOutputs(runner.testCase);
+    runner.job = buildJob(CaseData(runner.testCase), compiler, folders.shaders, precision);
+    return runner;
+}
+
+void runOnce(Runner& runner, const std::string& backend, WorkerPool& pool, ShaderCompiler& compiler,
+             const Folders& folders)
+{
+    JobReport report = runExplained(pool, compiler, folders.shaders, backend, 0, runner.job, std::chrono::seconds(120));
+    if (report.outcome == JobOutcome::kShaderError) throw ShaderError(report.text);
+    if (report.outcome != JobOutcome::kDone) {
+        throw EnvironmentError(fmt::format("{} on {}: {}", runner.testCase.name, backend, report.text));
+    }
+    const JobTimes& times = report.result.times;
+    runner.milliseconds.push_back(times.device >= 0 ? times.device : times.dispatch);
+    runner.last = std::move(report.result);
+}
+
+BenchTime summarize(const std::vector<double>& milliseconds, double baseline)
+{
+    BenchTime time;
+    time.median = medianOf(milliseconds);
+    time.fastest = *std::min_element(milliseconds.begin(), milliseconds.end());
+    time.slowest = *std::max_element(milliseconds.begin(), milliseconds.end());
+    time.ratio = baseline > 0 ? time.median / baseline : 0;
+    return time;
+}
+
+// Reads of the library's tracers, counted by the same shaders on the CPU: the tracer that does what the case asks for.
+void countFetches(const YardstickScene& scene, const Projection& projection, BenchPoint& point)
+{
+    const auto tracer = caseTracer(projection, scene);
+    if (!tracer) {
+        point.counters["Fetches"] = point.counters["FetchesOf32"] = 1; // a proxy reads the pixel's own depth
+        return;
+    }
+    const TracerScore score = scoreTracer(scene, *tracer);
+    point.counters["Fetches"] = score.fetches;
+    point.counters["FetchesOf32"] = score.groupFetches;
+}
+
+void fillScene(const YardstickScene& rays, BenchScene& scene)
+{
+    double unknowable = 0;
+    for (const YardstickRay& ray : rays.rays)
+        unknowable += ray.truth != RayTruth::kAnswerable;
+    scene.unknowable = scene.rays > 0 ? unknowable / scene.rays : 0;
+    scene.oracleWrong = scoreTracer(rays, depthOracle().prepare(rays)).wrong;
+}
+
+} // namespace
+
+BenchScene benchCase(const Case& testCase, const BenchOptions& options, WorkerPool& pool, ShaderCompiler& compiler,
+                     const Folders& folders)
+{
+    const Precision precision = usesDoubles(options.backend) ? Precision::kDouble : Precision::kFloat;
+    const bool isReflection = testCase.effect == TraceEffect::kReflection;
+    BenchScene scene;
+    scene.name = testCase.name;
+    scene.effect = isReflection ? "reflection" : "refraction";
+    scene.width = testCase.camera.width;
+    scene.height = testCase.camera.height;
+    Case plain = testCase;
+    setOutputs(plain);
+    const CaseData data(plain);
+    const Truth& truth = data.truth();
+    std::vector<BenchMethod> methods = makeBenchMethods(testCase);
+    methods.insert(methods.end(), options.own.begin(), options.own.end());
+    const BenchMethod baseline{"", "", [](Case& varied) {
+                                   varied.projection.model = ProjectionModel::kNone;
+                                   varied.material.refractionModel = RefractionModel::kNone;
+                               }};
+    std::vector<Runner> runners{makeRunner(testCase, baseline, compiler, folders, precision)};
+    for (const BenchMethod& method : methods)
+        runners.push_back(makeRunner(testCase, method, compiler, folders, precision));
+    for (int round = -1; round < options.rounds; ++round) {
+        for (Runner& runner : runners) {
+            runOnce(runner, options.backend, pool, compiler, folders);
+            if (round < 0) runner.milliseconds.clear(); // the first one compiles
+        }
+    }
+    scene.baselineMs = medianOf(runners[0].milliseconds);
+    scene.rays = static_cast<double>(std::count_if(truth.pixels.begin(), truth.pixels.end(), [](const TruthPixel& p) {
+        return p.screen != ScreenKnowledge::kNoRay;
+    }));
+    YardstickScene rays;
+    if (isReflection) {
+        rays = makeYardstickScene(data);
+        fillScene(rays, scene);
+    }
+    for (size_t i = 0; i < methods.size(); ++i) {
+        const Runner& runner = runners[i + 1];
+        BenchPoint point{methods[i].name, methods[i].kind, {}, {}, summarize(runner.milliseconds, scene.baselineMs)};
+        const Answers answers{readPlanes(runner.testCase, runner.last), runner.scale};
+        if (isReflection) {
+            judgeReflections(truth, answers, point);
+            if (runner.scale == 1 && methods[i].tracer.empty()) countFetches(rays, runner.testCase.projection, point);
+        } else {
+            judgeRefractions(truth, answers, point);
+        }
+        scene.points.push_back(std::move(point));
+    }
+    return scene;
+}
+
+} // namespace crossray

@@ -1,0 +1,92 @@
+#include "harness/bench/bench_case.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace crossray {
+
+namespace {
+
+// A box around all that is finite: what an artist would draw as a proxy.
+ProxyVolume boundScene(const Scene& scene)
+{
+    glm::dvec3 low(kNoLimit), high(-kNoLimit);
+    for (const Primitive& primitive : scene.primitives) {
+        glm::dvec3 reach =
+            primitive.shape == PrimitiveShape::kSphere ? glm::dvec3(primitive.radius) : primitive.halfExtents;
+        if (primitive.shape == PrimitiveShape::kPlane) reach.z = 0;
+        if (std::max({reach.x, reach.y, reach.z}) >= kNoLimit) continue;
+        glm::dvec3 extent(0.0);
+        for (int axis = 0; axis < 3; ++axis)
+            extent += glm::abs(primitive.worldFromLocal[axis]) * reach[axis];
+        low = glm::min(low, primitive.center - extent);
+        high = glm::max(high, primitive.center + extent);
+    }
+    ProxyVolume proxy;
+    if (low.x > high.x) return proxy;
+    proxy.center = 0.5 * (low + high);
+    proxy.halfExtents = glm::max(0.5 * (high - low), glm::dvec3(1e-3));
+    proxy.radius = std::max({proxy.halfExtents.x, proxy.halfExtents.y, proxy.halfExtents.z});
+    return proxy;
+}
+
+void addProxies(const Case& testCase, std::vector<BenchMethod>& methods)
+{
+    const bool hasOwn = testCase.projection.model == ProjectionModel::kProxyBox ||
+                        testCase.projection.model == ProjectionModel::kProxySphere;
+    const ProxyVolume proxy = hasOwn ? testCase.projection.proxy : boundScene(testCase.scene);
+    const std::pair<const char*, ProjectionModel> models[] = {{"proxy, infinite", ProjectionModel::kProxyInfinite},
+                                                              {"proxy, sphere", ProjectionModel::kProxySphere},
+                                                              {"proxy, box", ProjectionModel::kProxyBox}};
+    for (const auto& [name, model] : models) {
+        methods.push_back({name, "proxy", [proxy, model = model](Case& varied) {
+                               varied.projection.model = model;
+                               varied.projection.proxy = proxy;
+                           }});
+    }
+}
+
+void addHiz(std::vector<BenchMethod>& methods, double thickness)
+{
+    const auto add = [&](const std::string& name, HizSettings settings, int scale) {
+        methods.push_back({name, "hiz",
+                           [settings](Case& varied) {
+                               varied.projection.model = ProjectionModel::kHiz;
+                               varied.projection.hiz = settings;
+                           },
+                           scale});
+    };
+    for (const int minLevel : {0, 1, 2}) {
+        for (const int iterations : {32, 64, 256}) {
+            add(fmt::format("HiZ, levels {} to 6, {} steps", minLevel, iterations),
+                {minLevel, 6, iterations, thickness}, 1);
+        }
+    }
+    add("HiZ, levels 0 to 3, 256 steps", {0, 3, 256, thickness}, 1);
+    add("HiZ, levels 0 to 6, 256 steps, half size", {0, 6, 256, thickness}, 2);
+}
+
+} // namespace
+
+std::vector<BenchMethod> makeBenchMethods(const Case& testCase)
+{
+    std::vector<BenchMethod> methods;
+    if (testCase.effect == TraceEffect::kRefraction) {
+        const std::tuple<const char*, const char*, RefractionModel> models[] = {
+            {"None", "none", RefractionModel::kNone},
+            {"Thin", "thin", RefractionModel::kThin},
+            {"Box", "box", RefractionModel::kBox},
+            {"Sphere", "sphere", RefractionModel::kSphere}};
+        for (const auto& [name, kind, model] : models) {
+            methods.push_back({name, kind, [model = model](Case& varied) { varied.material.refractionModel = model; }});
+        }
+        return methods;
+    }
+    addProxies(testCase, methods);
+    addHiz(methods, testCase.projection.hiz.depthBias);
+    return methods;
+}
+
+} // namespace crossray
