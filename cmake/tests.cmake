@@ -45,6 +45,10 @@ file(GLOB shader_test_sources CONFIGURE_DEPENDS tests/shader/*_test.cpp)
 foreach(precision 32 64)
   crossray_test_program(test_shader${precision} SOURCES ${shader_test_sources} USES crossray_base PREFIX cpu${precision}.)
   target_compile_definitions(test_shader${precision} PRIVATE CROSSRAY_GLSL_PRECISION=${precision})
+  # GLM with swizzles takes ten seconds to parse. The option lets compiler caches see through precompiled headers.
+  target_precompile_headers(test_shader${precision} PRIVATE ${CMAKE_SOURCE_DIR}/tests/shader/shader_test.h
+                            ${CMAKE_SOURCE_DIR}/harness/backend/cpu/glsl_glm.h)
+  target_compile_options(test_shader${precision} PRIVATE -fpch-preprocess)
 endforeach()
 target_compile_options(test_shader32 PRIVATE -fsingle-precision-constant)
 # How good its tracer is, on the harness's random rooms.

@@ -20,24 +20,11 @@
 // floatBitsToInt and its kin. The library does not write through swizzles.
 #pragma once
 
+#include "harness/backend/cpu/glsl_glm.h"
+
 #include <bit>
 #include <cmath>
 #include <cstdint>
-
-// Swizzle members and what they need change GLM's classes, so this GLM lives in a namespace of its own: two forms of one
-// class in one program would break the one-definition rule.
-#ifdef GLM_VERSION
-#error "include harness/backend/cpu/glsl.h before anything that includes GLM"
-#endif
-#define GLM_FORCE_INTRINSICS // GLM offers swizzle members only with it; vectors stay plain scalars in a row
-#define GLM_FORCE_SWIZZLE
-#define glm crossray_glm
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpedantic"
-#pragma GCC diagnostic ignored "-Wshadow"
-#pragma GCC diagnostic ignored "-Wconversion"
-#include <glm/glm.hpp>
-#pragma GCC diagnostic pop
 
 #if !defined(CROSSRAY_GLSL_PRECISION) || (CROSSRAY_GLSL_PRECISION != 32 && CROSSRAY_GLSL_PRECISION != 64)
 #error "define CROSSRAY_GLSL_PRECISION as 32 or 64 before including harness/backend/cpu/glsl.h"
