@@ -207,19 +207,25 @@ TEST(ShaderRoughness, TheDominantDirectionLeansToTheNormal)
     const vec3 n(0, 1, 0);
     const vec3 v = normalize(vec3(-1, 1, 0));
     const vec3 r = normalize(vec3(1, 1, 0));
-    EXPECT_NEAR(length(computeDominantDirection(n, r, v, 0) - r), 0, 4 * kUlps);
-    EXPECT_NEAR(length(computeDominantDirection(n, r, v, 1) - n), 0, 4 * kUlps);
+    EXPECT_NEAR(length(computeDominantDirection(n, r, v, 0, kDominantPlain) - r), 0, 4 * kUlps);
+    EXPECT_NEAR(length(computeDominantDirection(n, r, v, 1, kDominantPlain) - n), 0, 4 * kUlps);
     // r = 0.9: r2 = 0.81, factor = (sqrt(0.19) + 0.81) * (0.19^2 + 0.19 * cos 45).
     const double factor = (std::sqrt(0.19) + 0.81) * (0.19 * 0.19 + 0.19 * std::sqrt(0.5));
     const double x = factor * std::sqrt(0.5);
     const double y = 1 - factor + factor * std::sqrt(0.5);
-    const vec3 d = computeDominantDirection(n * 3.0, r * 2.0, v * 5.0, Real(0.9));
+    const vec3 d = computeDominantDirection(n * 3.0, r * 2.0, v * 5.0, Real(0.9), kDominantPlain);
     EXPECT_NEAR(static_cast<double>(d.x / d.y), x / y, 1e-5);
+    // The square of cos 45 is one half.
+    const double squared = (std::sqrt(0.19) + 0.81) * (0.19 * 0.19 + 0.19 * 0.5);
+    const vec3 e = computeDominantDirection(n, r, v, Real(0.9), kDominantSquared);
+    EXPECT_NEAR(static_cast<double>(e.x / e.y), squared * std::sqrt(0.5) / (1 - squared + squared * std::sqrt(0.5)),
+                1e-5);
+    EXPECT_NEAR(length(computeDominantDirection(n, r, v, Real(0.9), kDominantOff) - r), 0, 4 * kUlps);
     // What is missing is left out.
-    EXPECT_EQ(computeDominantDirection(vec3(0), vec3(1, 0, 0), v, Real(0.5)), vec3(1, 0, 0));
-    EXPECT_EQ(computeDominantDirection(n, vec3(1, 0, 0), vec3(0), Real(0.5)), vec3(1, 0, 0));
-    EXPECT_EQ(computeDominantDirection(n, vec3(0), vec3(0), Real(0.5)), n);
-    EXPECT_EQ(computeDominantDirection(vec3(0), vec3(0), vec3(0), Real(0.5)), vec3(0));
+    EXPECT_EQ(computeDominantDirection(vec3(0), vec3(1, 0, 0), v, Real(0.5), kDominantPlain), vec3(1, 0, 0));
+    EXPECT_EQ(computeDominantDirection(n, vec3(1, 0, 0), vec3(0), Real(0.5), kDominantPlain), vec3(1, 0, 0));
+    EXPECT_EQ(computeDominantDirection(n, vec3(0), vec3(0), Real(0.5), kDominantPlain), n);
+    EXPECT_EQ(computeDominantDirection(vec3(0), vec3(0), vec3(0), Real(0.5), kDominantPlain), vec3(0));
 }
 
 RC_GTEST_PROP(ShaderRoughness, AnswersAnything, ())
@@ -230,8 +236,8 @@ RC_GTEST_PROP(ShaderRoughness, AnswersAnything, ())
     RC_ASSERT(isFinite(computeBuiltInMip(r)) && isFinite(computeBuiltInMipExact(r)));
     const Real sharper = computeDistanceBasedRoughness(r, drawHostile(), drawHostile());
     RC_ASSERT(sharper >= 0 && sharper <= 1);
-    const vec3 d =
-        computeDominantDirection(drawHostileVector<vec3>(), drawHostileVector<vec3>(), drawHostileVector<vec3>(), r);
+    const vec3 d = computeDominantDirection(drawHostileVector<vec3>(), drawHostileVector<vec3>(),
+                                            drawHostileVector<vec3>(), r, kDominantSquared);
     RC_ASSERT(isFinite(d));
     RC_ASSERT(length(d) < 1 + kUlps);
 }

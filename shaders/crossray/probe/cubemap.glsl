@@ -17,26 +17,30 @@ CubePosition cubePositionFromDirection(vec3 dir)
 {
     vec3 d = safeNormalize(dir, vec3(1.0, 0.0, 0.0));
     vec3 size = abs(d);
-    bool isZ = size.z >= size.x && size.z >= size.y;
-    bool isY = !isZ && size.y >= size.x;
-    float major = isZ ? d.z : (isY ? d.y : d.x);
-    bool isPositive = major > 0.0;
-    float s = isZ ? (isPositive ? d.x : -d.x) : (isY ? d.x : (isPositive ? -d.z : d.z));
-    float t = isY ? (isPositive ? d.z : -d.z) : -d.y;
-    int face = (isZ ? 4 : (isY ? 2 : 0)) + (isPositive ? 0 : 1);
-    return CubePosition(face, saturate((vec2(s, t) / abs(major) + vec2(1.0)) * 0.5), hasDirection(dir));
+    bool beatsX = size.z >= size.x;
+    bool beatsY = size.z >= size.y;
+    bool isZ = beatsX && beatsY;
+    bool isY = size.y >= size.x; // where it is not z
+    float major = choose(isZ, d.z, choose(isY, d.y, d.x));
+    float side = choose(major > 0.0, 1.0, -1.0);
+    vec2 onX = vec2(-side * d.z, -d.y);
+    vec2 onY = vec2(d.x, side * d.z);
+    vec2 onZ = vec2(side * d.x, -d.y);
+    vec2 st = choose(isZ, onZ, choose(isY, onY, onX));
+    int face = choose(isZ, 4, choose(isY, 2, 0)) + choose(major > 0.0, 0, 1);
+    return CubePosition(face, saturate((st / abs(major) + vec2(1.0)) * 0.5), hasDirection(dir));
 }
 
 // The point of the unit cube (components up to 1) at s to the right, t down, on the plane of that face pushed to
 // `major`. Faces outside 0 to 5 count as the nearest.
 vec3 cubePoint(int face, float s, float t, float major)
 {
-    if (face <= 0) return vec3(major, -t, -s);
-    if (face == 1) return vec3(-major, -t, s);
-    if (face == 2) return vec3(s, major, t);
-    if (face == 3) return vec3(s, -major, -t);
-    if (face == 4) return vec3(s, -t, major);
-    return vec3(-s, -t, -major);
+    int known = clamp(face, 0, 5);
+    float side = choose((known & 1) == 0, 1.0, -1.0);
+    vec3 onX = vec3(side * major, -t, -side * s);
+    vec3 onY = vec3(s, side * major, side * t);
+    vec3 onZ = vec3(side * s, -t, side * major);
+    return choose(known >= 4, onZ, choose(known >= 2, onY, onX));
 }
 
 // Unit direction of a face's point; uv beyond [0,1] stays on the face's plane.
@@ -52,22 +56,25 @@ vec3 directionFromCubePosition(int face, vec2 uv)
 CubePosition foldCubePosition(int face, vec2 uv)
 {
     bool isUsable = isFinite(uv);
-    vec2 st = isUsable ? uv * 2.0 - vec2(1.0) : vec2(0.0);
+    vec2 st = choose(isUsable, uv * 2.0 - vec2(1.0), vec2(0.0));
     vec2 excess = clamp(abs(st) - vec2(1.0), 0.0, 2.0);
-    bool overSide = excess.x > 0.0 && excess.x >= excess.y;
-    bool overEnd = !overSide && excess.y > 0.0;
+    bool isBeyondX = excess.x > 0.0;
+    bool isBeyondY = excess.y > 0.0;
+    bool isWider = excess.x >= excess.y;
+    bool overSide = isBeyondX && isWider;
+    bool overEnd = isBeyondY && !overSide;
     vec2 inside = clamp(st, -1.0, 1.0);
-    float major = 1.0 - (overSide ? excess.x : (overEnd ? excess.y : 0.0));
+    float major = 1.0 - choose(overSide, excess.x, choose(overEnd, excess.y, 0.0));
     vec3 point = cubePoint(face, inside.x, inside.y, major);
-    int first = clamp(face, 0, 5);
-    if (!overSide && !overEnd) return CubePosition(first, (inside + vec2(1.0)) * 0.5, isUsable);
     // The neighbour is the face that the crossed edge belongs to besides this one.
-    vec3 edge = cubePoint(face, overSide ? inside.x : 0.0, overEnd ? inside.y : 0.0, 0.0);
+    vec3 edge = cubePoint(face, choose(overSide, inside.x, 0.0), choose(overEnd, inside.y, 0.0), 0.0);
     int neighbour = cubePositionFromDirection(edge).face;
     vec3 right = cubePoint(neighbour, 1.0, 0.0, 0.0);
     vec3 down = cubePoint(neighbour, 0.0, 1.0, 0.0);
     vec2 folded = vec2(dot(point, right), dot(point, down));
-    return CubePosition(neighbour, saturate((folded + vec2(1.0)) * 0.5), isUsable);
+    bool isFolded = overSide || overEnd;
+    vec2 result = choose(isFolded, folded, inside);
+    return CubePosition(choose(isFolded, neighbour, clamp(face, 0, 5)), saturate((result + vec2(1.0)) * 0.5), isUsable);
 }
 
 #endif

@@ -31,6 +31,13 @@ float computeRefractionMip(float perceptualRoughness, int lods)
     return computeRoughnessMip(perceptualRoughness, lods, kRefractionMipExponent);
 }
 
+// Mip level in [0, lods - 1] of a prefiltered probe of `lods` levels; 0 where there is one level or none.
+float computeProbeMip(float perceptualRoughness, int lods)
+{
+    float r = saturate(perceptualRoughness);
+    return r * (1.7 - 0.7 * r) * float(max(lods - 1, 0));
+}
+
 // Mip level in [0, 6] as the Built-in pipeline has it: a parabola through the exact form's ends.
 float computeBuiltInMip(float perceptualRoughness)
 {
@@ -59,18 +66,25 @@ float computeDistanceBasedRoughness(float perceptualRoughness, float hitDistance
     return mix(clamp(ratio * r, 0.0, r), r, r);
 }
 
+// How the dominant direction takes the angle of view: not at all (the mirror direction stays), by the cosine N.V, or by
+// its square, as HDRP's code has it.
+const int kDominantOff = 0;
+const int kDominantPlain = 1;
+const int kDominantSquared = 2;
+
 // Unit direction of the middle of a rough reflection's lobe: between the normal and the mirror direction (at a middling
 // roughness a little beyond the latter, as the fit has it). Inputs are normalised; without a normal or a view direction
 // the mirror direction, without that the normal, without both the zero vector.
-vec3 computeDominantDirection(vec3 normalWS, vec3 reflectionDirWS, vec3 viewDirWS, float perceptualRoughness)
+vec3 computeDominantDirection(vec3 normalWS, vec3 reflectionDirWS, vec3 viewDirWS, float perceptualRoughness, int form)
 {
     vec3 n = safeNormalize(normalWS, vec3(0.0));
     vec3 reflected = safeNormalize(reflectionDirWS, n);
-    if (!hasDirection(normalWS) || !hasDirection(viewDirWS)) return reflected;
+    if (form == kDominantOff || !hasDirection(normalWS) || !hasDirection(viewDirWS)) return reflected;
     float cosine = saturate(dot(n, safeNormalize(viewDirWS, n)));
+    float angle = form == kDominantPlain ? cosine : cosine * cosine;
     float squared = saturate(perceptualRoughness) * saturate(perceptualRoughness);
     float smoothness = 1.0 - squared;
-    float factor = (sqrt(smoothness) + squared) * saturate(smoothness * smoothness + smoothness * cosine);
+    float factor = (sqrt(smoothness) + squared) * saturate(smoothness * smoothness + smoothness * angle);
     return safeNormalize(mix(n, reflected, factor), reflected);
 }
 
