@@ -23,6 +23,10 @@ constexpr std::array kOutputs{
     OutputInfo{13, "HitPositionSS", OutputType::kScalar, 2, "px", "Hit on screen, origin at the top left corner."},
     OutputInfo{14, "PathLength", OutputType::kDepth, 1, "m", "Way inside the refracting material."},
     OutputInfo{15, "RayOriginWS", OutputType::kScalar, 3, "m", "Start of the traced ray in world space."},
+    OutputInfo{16, "TierWeights", OutputType::kScalar, 4, "", "What the screen, standard probes, planar probes and the sky got."},
+    OutputInfo{17, "ProbeWeights", OutputType::kScalar, 4, "", "What each of the case's first four probes got."},
+    OutputInfo{18, "ProbeDirWS", OutputType::kDirection, 3, "", "Direction in which the first probe that got something is read; 0 without one."},
+    OutputInfo{19, "ProbeMipLevel", OutputType::kScalar, 1, "", "Mip level at which it is read."},
 };
 
 } // namespace

@@ -57,10 +57,6 @@ SceneCapture buildCapture(const TableReader& table, const Case& testCase, int pr
     capture.position = table.position("capture");
     if (table.has("bounces")) capture.bounces = table.integer("bounces");
     if (const int face = table.choice("face"); face > 0) capture.face = face - 1; // the first choice is all
-    if (!isCubeSize(table.integer("size"))) {
-        throw InputError(table.position("size"),
-                         fmt::format("\"size\" is {}; a power of two is allowed for a capture", table.integer("size")));
-    }
     if (capture.mode == SceneCapture::Mode::kRealtime) {
         if (table.has("file"))
             throw InputError(table.position("file"), "\"file\" is not allowed beside capture = \"realtime\"");
@@ -102,6 +98,10 @@ Environment buildEnvironment(const TableReader& table, const Case& testCase, int
     for (const std::string_view key : {"bounces", "face"}) {
         if (table.has(key) && given != "capture")
             throw InputError(table.position(key), fmt::format("\"{}\" is not allowed without \"capture\"", key));
+    }
+    if (!isCubeSize(table.integer("size"))) {
+        throw InputError(table.position("size"),
+                         fmt::format("\"size\" is {}; a power of two is allowed", table.integer("size")));
     }
     if (given == "capture") return {buildCapture(table, testCase, probe), table.integer("size")};
     if (given == "file") return {buildFile(table, testCase), 0};

@@ -113,7 +113,7 @@ std::vector<KeySpec> environmentKeys()
             .atLeast(1)
             .atMost(kLargestEnvironment)
             .byDefault("16")
-            .says("Texels a side of the finest level; the mip chain ends at one texel. Capture: a power of two."),
+            .says("Texels a side of the finest level, a power of two; the mip chain ends at one texel."),
     };
 }
 

@@ -1,6 +1,7 @@
 #include "harness/expect/expect.h"
 
 #include "harness/base/error.h"
+#include "harness/expect/environment.h"
 #include "harness/scene/camera_frame.h"
 
 #include <algorithm>
@@ -13,6 +14,7 @@ struct CaseData::Lazy {
     std::mutex mutex;
     std::optional<std::vector<SurfacePoint>> surfaces;
     std::optional<Truth> truth;
+    std::optional<std::vector<Cubemap>> environments;
 };
 
 namespace {
@@ -157,6 +159,20 @@ const std::vector<SurfacePoint>& CaseData::surfaces() const
                                              : castSurfaces(testCase_.scene, testCase_.camera, traced_);
     }
     return *lazy_->surfaces;
+}
+
+const std::vector<Cubemap>& CaseData::environments() const
+{
+    const std::lock_guard lock(lazy_->mutex);
+    if (!lazy_->environments) {
+        lazy_->environments.emplace();
+        for (const Probe& probe : testCase_.probes)
+            lazy_->environments->push_back(makeEnvironment(testCase_, probe.environment, &probe));
+        if (testCase_.sky.environment) {
+            lazy_->environments->push_back(makeEnvironment(testCase_, *testCase_.sky.environment, nullptr));
+        }
+    }
+    return *lazy_->environments;
 }
 
 const Truth& CaseData::truth() const

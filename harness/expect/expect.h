@@ -5,6 +5,7 @@
 
 #include "harness/case/case.h"
 #include "harness/judge/judge.h"
+#include "harness/scene/cubemap.h"
 #include "harness/scene/gbuffer.h"
 #include "harness/scene/truth.h"
 
@@ -24,8 +25,8 @@ struct SurfacePoint {
     int primitive = -1;       // of the scene; -1 in recorded data
 };
 
-// What the expectations of one case are computed from; made once a case and shared by all backends. Surfaces and truth
-// are made on the first call that needs them; all members may be called from several threads.
+// What the expectations of one case are computed from; made once a case and shared by all backends. Surfaces,
+// environments and truth are made on the first call that needs them; all members may be called from several threads.
 class CaseData {
   public:
     // Throws InputError: an invalid camera or scene, recorded files that cannot be read.
@@ -44,6 +45,9 @@ class CaseData {
     // Of every traced pixel, at its centre: from the scene's geometry, not from the G-buffer, which rounds; from the
     // G-buffer when it was recorded, because it is all there is. The other pixels hold zeros.
     const std::vector<SurfacePoint>& surfaces() const;
+
+    // What the case's probes show, in its order, and after them the sky's cubemap where the sky is one.
+    const std::vector<Cubemap>& environments() const;
 
     const Truth& truth() const; // throws InputError when the case has no truth
 

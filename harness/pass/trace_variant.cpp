@@ -21,6 +21,8 @@ std::map<std::string, double> makeTraceVariant(const Case& testCase)
         {"kOrthographic", camera.projection == ProjectionKind::kOrthographic ? 1 : 0},
         {"kReversedDepth", camera.depthConvention == DepthConvention::kStandard ? 0 : 1},
         {"kScreenWeightForm", static_cast<int>(testCase.projection.screenWeightForm)},
+        {"kHierarchy", testCase.hierarchy},
+        {"kSkyModel", static_cast<int>(testCase.sky.model)},
     };
 }
 

@@ -10,6 +10,8 @@ const int kColorBinding = 3;
 const int kMaskBinding = 4;
 const int kPyramidBinding = 8;
 const int kOutputBinding = 9;
+const int kProbeAtlasBinding = 10;
 const int kRecordBinding = 12;
+const int kProbeParamsBinding = 16;
 
 #endif

@@ -3,6 +3,7 @@
 #define BINDINGS_SCREEN_TRACE_GLSL
 
 #include "crossray/shared/pass_params.glsl"
+#include "crossray/shared/probe_params.glsl"
 #include "bindings/binding_numbers.glsl"
 #include "bindings/variants.glsl"
 
@@ -14,6 +15,8 @@ layout(binding = kMaskBinding) uniform sampler2D traceMaskImage; // r: above 0.5
 layout(std430, binding = kPyramidBinding) readonly buffer PyramidBlock { vec2 pyramidCells[]; }; // nearest, farthest linear depth
 layout(std430, binding = kOutputBinding) writeonly buffer OutputBlock { vec4 outputValues[]; }; // plane after plane
 layout(std430, binding = kRecordBinding) writeonly buffer RecordBlock { vec4 recordValues[]; }; // pass/record_layout.glsl
+layout(std140, binding = kProbeParamsBinding) uniform ProbeParamsBlock { ProbeParams probeParams; };
+layout(binding = kProbeAtlasBinding) uniform sampler2D probeAtlasImage; // rgb: linear radiance; pass/probe_tier.glsl
 
 float fetchDeviceDepth(ivec2 pixel) { return texelFetch(deviceDepthImage, pixel, 0).r; }
 vec3 fetchNormalWS(ivec2 pixel) { return texelFetch(normalImage, pixel, 0).rgb; }
@@ -22,5 +25,6 @@ bool fetchTraced(ivec2 pixel) { return texelFetch(traceMaskImage, pixel, 0).r > 
 vec2 loadPyramidCell(int index) { return pyramidCells[index]; }
 void storeOutputValue(int index, vec4 value) { outputValues[index] = value; }
 void storeRecordValue(int index, vec4 value) { recordValues[index] = value; }
+vec3 fetchProbeAtlas(ivec2 texel) { return texelFetch(probeAtlasImage, texel, 0).rgb; }
 
 #endif

@@ -16,7 +16,12 @@ vec3 fetchColorAt(vec2 positionSS)
     return fetchColor(clamp(ivec2(floor(positionSS)), ivec2(0, 0), size - ivec2(1, 1)));
 }
 
-bool wantsScreenWeight() { return wantsOutput(kOutputHitWeight) || wantsOutput(kOutputColor); }
+bool wantsScreenWeight()
+{
+    bool byTiers = kHierarchy != 0 && (wantsOutput(kOutputTierWeights) || wantsOutput(kOutputProbeWeights) ||
+                                       wantsOutput(kOutputProbeDirWS) || wantsOutput(kOutputProbeMipLevel));
+    return wantsOutput(kOutputHitWeight) || wantsOutput(kOutputColor) || byTiers;
+}
 bool wantsScreenColor() { return wantsOutput(kOutputSampledColor) || wantsOutput(kOutputColor); }
 
 ScreenColor computeScreenColor(View view, PixelAnswer answer)

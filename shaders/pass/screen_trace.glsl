@@ -1,29 +1,26 @@
 // One pixel of the pass screen_trace: the reflected or refracted ray, its projection by one of the models, the screen weight, and
 // the debug modes. The variant constants select the code; what a variant does not use is not in it.
-// Hooks: fetchDeviceDepth, fetchNormalWS, fetchColor, fetchTraced, loadPyramidCell, storeOutputValue, storeRecordValue, and the
-// block params;
-// bindings/screen_trace.glsl.
+// Hooks: fetchDeviceDepth, fetchNormalWS, fetchColor, fetchTraced, fetchProbeAtlas, loadPyramidCell, storeOutputValue, storeRecordValue, and the
+// blocks params and probeParams; bindings/screen_trace.glsl.
 #ifndef PASS_SCREEN_TRACE_GLSL
 #define PASS_SCREEN_TRACE_GLSL
 
 #include "pass/output_slots.glsl"
 #include "pass/view_of_params.glsl"
 
+#include "pass/pixel_surface.glsl"
 #include "pass/pixel_ray.glsl"
 #include "pass/projection.glsl"
 
 #include "pass/pixel_color.glsl"
+#include "pass/hierarchy.glsl"
 #include "pass/store_outputs.glsl"
 
-PixelAnswer answerPixel(View view, ivec2 pixel)
+PixelAnswer answerPixel(View view, PixelSurface surface)
 {
-    vec2 positionSS = vec2(pixel) + vec2(0.5, 0.5);
-    float linearDepth = linearDepthFromDevice(view, fetchDeviceDepth(pixel));
-    vec3 positionWS = positionWSFromSS(view, positionSS, linearDepth);
-    vec3 viewDirWS = viewDirectionWS(view, positionWS);
-    RefractionExit ray = computePixelRay(positionWS, fetchNormalWS(pixel), viewDirWS);
+    RefractionExit ray = computePixelRay(surface.positionWS, surface.normalWS, surface.viewDirWS);
     recordRay(view, ray.positionWS, ray.dirWS, ray.pathLength);
-    return projectRay(view, ray, positionSS);
+    return projectRay(view, ray, surface.positionSS);
 }
 
 PixelAnswer answerUntraced()
@@ -53,13 +50,16 @@ void traceScreenPixel(ivec2 invocation)
     if (float(pixel.x) >= view.imageSize.x || float(pixel.y) >= view.imageSize.y) return;
     if (!fetchTraced(pixel)) {
         recordAnswer(false, answerUntraced(), ScreenColor(vec3(0.0, 0.0, 0.0), 0.0));
-        storeAnswer(view, pixel, answerUntraced(), ScreenColor(vec3(0.0, 0.0, 0.0), 0.0));
+        storeAnswer(view, pixel, answerUntraced(), ScreenColor(vec3(0.0, 0.0, 0.0), 0.0), answerNothing());
         return;
     }
-    PixelAnswer answer = answerPixel(view, pixel);
+    PixelSurface surface = loadPixelSurface(view, pixel);
+    PixelAnswer answer = answerPixel(view, surface);
     ScreenColor screen = computeScreenColor(view, answer);
+    HierarchyAnswer tiers = answerNothing();
+    if (wantsHierarchy()) tiers = askTiers(surface, answer, screen);
     recordAnswer(true, answer, screen);
-    storeAnswer(view, pixel, answer, screen);
+    storeAnswer(view, pixel, answer, screen, tiers);
 }
 
 #endif

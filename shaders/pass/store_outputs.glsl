@@ -4,13 +4,15 @@
 
 #include "crossray/core/ray_ndc.glsl"
 #include "pass/output_slots.glsl"
+#include "pass/hierarchy.glsl"
 #include "pass/pixel_color.glsl"
 #include "pass/projection.glsl"
 
-void storeAnswer(View view, ivec2 pixel, PixelAnswer answer, ScreenColor screen)
+void storeAnswer(View view, ivec2 pixel, PixelAnswer answer, ScreenColor screen, HierarchyAnswer tiers)
 {
     bool hit = answer.hitClass == kHitClassHit;
-    if (wantsOutput(kOutputColor)) storeOutput(kOutputColor, pixel, vec4(screen.color * screen.weight, 0.0));
+    vec3 color = kHierarchy != 0 ? tiers.color : screen.color * screen.weight;
+    if (wantsOutput(kOutputColor)) storeOutput(kOutputColor, pixel, vec4(color, 0.0));
     if (wantsOutput(kOutputRayDirWS)) storeOutput(kOutputRayDirWS, pixel, vec4(answer.rayDirWS, 0.0));
     if (wantsOutput(kOutputHitDepth)) storeOutput(kOutputHitDepth, pixel, vec4(answer.linearDepth, 0.0, 0.0, 0.0));
     if (wantsOutput(kOutputHitSuccess)) {
@@ -46,6 +48,12 @@ void storeAnswer(View view, ivec2 pixel, PixelAnswer answer, ScreenColor screen)
         storeOutput(kOutputPathLength, pixel, vec4(answer.pathLength, 0.0, 0.0, 0.0));
     }
     if (wantsOutput(kOutputRayOriginWS)) storeOutput(kOutputRayOriginWS, pixel, vec4(answer.rayOriginWS, 0.0));
+    if (wantsOutput(kOutputTierWeights)) storeOutput(kOutputTierWeights, pixel, tiers.tierWeights);
+    if (wantsOutput(kOutputProbeWeights)) storeOutput(kOutputProbeWeights, pixel, tiers.probeWeights);
+    if (wantsOutput(kOutputProbeDirWS)) storeOutput(kOutputProbeDirWS, pixel, vec4(tiers.probeDirWS, 0.0));
+    if (wantsOutput(kOutputProbeMipLevel)) {
+        storeOutput(kOutputProbeMipLevel, pixel, vec4(tiers.probeMipLevel, 0.0, 0.0, 0.0));
+    }
 }
 
 #endif

@@ -8,12 +8,14 @@
 #include "harness/backend/cpu/glsl.h"
 
 #include "crossray/shared/pass_params.glsl"
+#include "crossray/shared/probe_params.glsl"
 
 using Real = decltype(vec2::x);
 
 thread_local CpuBindings<Real> bound;
 thread_local PassParams params;
 thread_local PyramidParams pyramidParams;
+thread_local ProbeParams probeParams;
 
 #define CROSSRAY_VARIANT(id, name, value) thread_local int name = value;
 #include "bindings/variants.glsl"
@@ -40,6 +42,7 @@ vec3 texelRgb(uint32_t binding, ivec2 pixel)
 float fetchDeviceDepth(ivec2 pixel) { return texelOf(kDepthBinding, pixel)[0]; }
 vec3 fetchNormalWS(ivec2 pixel) { return texelRgb(kNormalBinding, pixel); }
 vec3 fetchColor(ivec2 pixel) { return texelRgb(kColorBinding, pixel); }
+vec3 fetchProbeAtlas(ivec2 texel) { return texelRgb(kProbeAtlasBinding, texel); }
 bool fetchTraced(ivec2 pixel) { return texelOf(kMaskBinding, pixel)[0] > 0.5; }
 
 vec2 loadPyramidCell(int index)
@@ -75,9 +78,9 @@ void storeRecordValue(int index, vec4 value) { storeVector(kRecordBinding, index
 #include "pass/screen_trace.glsl"
 
 template <class Params>
-void readUniform(Params& target)
+void readUniform(Params& target, uint32_t binding)
 {
-    const std::span<const std::byte> bytes = bound.uniforms[kParamsBinding];
+    const std::span<const std::byte> bytes = bound.uniforms[binding];
     if (bytes.size() == sizeof(Params)) std::memcpy(static_cast<void*>(&target), bytes.data(), sizeof(Params));
 }
 
@@ -85,13 +88,14 @@ constexpr CpuKernel<Real> kKernels[] = {
     {"entry/depth_pyramid.comp", 8, 8,
      [](const CpuBindings<Real>& bindings) {
          bound = bindings;
-         readUniform(pyramidParams);
+         readUniform(pyramidParams, kParamsBinding);
      },
      [](int x, int y) { buildPyramidCell(ivec2(x, y)); }},
     {"entry/screen_trace.comp", 8, 8,
      [](const CpuBindings<Real>& bindings) {
          bound = bindings;
-         readUniform(params);
+         readUniform(params, kParamsBinding);
+         readUniform(probeParams, kProbeParamsBinding);
      },
      [](int x, int y) { traceScreenPixel(ivec2(x, y)); }},
 };

@@ -20,7 +20,11 @@ const int kOutputSampledColor = 12;
 const int kOutputHitPositionSS = 13;
 const int kOutputPathLength = 14;
 const int kOutputRayOriginWS = 15;
-const int kOutputCount = 16;
+const int kOutputTierWeights = 16;
+const int kOutputProbeWeights = 17;
+const int kOutputProbeDirWS = 18;
+const int kOutputProbeMipLevel = 19;
+const int kOutputCount = 20;
 
 // Hit classes: the values of HitSuccess.
 const int kHitClassNoRaycast = 0;

@@ -61,7 +61,7 @@ TEST_F(Environments, aFileOfOnesOwnHasItsSize)
 TEST_F(Environments, whatDoesNotGoWithACaptureIsRefused)
 {
     EXPECT_EQ(refusal(withScene(kEnvironment + "capture = \"realtime\"\nsize = 48\n")),
-              "a.toml:17:8: \"size\" is 48; a power of two is allowed for a capture");
+              "a.toml:17:8: \"size\" is 48; a power of two is allowed");
     EXPECT_EQ(refusal(withScene(kEnvironment + "capture = \"realtime\"\nfile = \"a.exr\"\n")),
               "a.toml:17:8: \"file\" is not allowed beside capture = \"realtime\"");
     EXPECT_EQ(refusal(withScene(kEnvironment + "solid = [1, 1, 1]\nbounces = 1\n")),

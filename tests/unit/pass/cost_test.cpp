@@ -97,3 +97,13 @@ TEST(Cost, growsWithTheModel)
     EXPECT_LT(none, slab);
     EXPECT_LT(slab, sphere);
 }
+
+TEST(Cost, probesAreReadWhereTheyAreAskedForAlone)
+{
+    const Cost with = costOfTrace("probe/backends_agree");
+    EXPECT_TRUE(with.bindings.contains(kProbeParamsBinding));
+    EXPECT_EQ(with.fetches.at(kProbeAtlasBinding), 1); // in a loop over the footprint
+    const Cost without = costOfTrace("reflection/hiz_sky");
+    EXPECT_FALSE(without.bindings.contains(kProbeParamsBinding));
+    EXPECT_FALSE(without.bindings.contains(kProbeAtlasBinding));
+}
