@@ -60,6 +60,12 @@ void storePair(double* target, const glm::dvec2& value)
     target[1] = value.y;
 }
 
+void storeFour(double* target, const glm::dvec4& value)
+{
+    for (int i = 0; i < 4; ++i)
+        target[i] = value[i];
+}
+
 void storeAnswer(double* target, Output output, const PixelAnswer& answer)
 {
     switch (output) {
@@ -93,6 +99,15 @@ void storeAnswer(double* target, Output output, const PixelAnswer& answer)
         return storePair(target, answer.hitPositionSS);
     case Output::kPositionNDC:
         return storePair(target, answer.positionNDC);
+    case Output::kTierWeights:
+        return storeFour(target, answer.share.tiers);
+    case Output::kProbeWeights:
+        return storeFour(target, answer.share.probes);
+    case Output::kProbeDirWS:
+        return storeVector(target, answer.share.probeDirWS);
+    case Output::kProbeMipLevel:
+        target[0] = answer.share.probeMipLevel;
+        return;
     }
 }
 

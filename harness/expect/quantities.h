@@ -2,6 +2,7 @@
 #pragma once
 
 #include "harness/expect/analytic.h"
+#include "harness/expect/analytic_probe.h"
 #include "harness/expect/expect.h"
 
 #include <string_view>
@@ -23,6 +24,10 @@ enum class Output : int {
     kHitPositionSS = 13,
     kPathLength = 14,
     kRayOriginWS = 15,
+    kTierWeights = 16,
+    kProbeWeights = 17,
+    kProbeDirWS = 18,
+    kProbeMipLevel = 19,
 };
 
 // All that a quantity may know of one pixel; each fills what it answers for.
@@ -36,6 +41,7 @@ struct PixelAnswer {
     int iterations = 0;
     double hitWeight = 0;
     glm::dvec3 radiance{0.0};
+    HierarchyShare share;
 };
 
 // What the quantities work on; `truth` only where the quantity asks for it.
@@ -55,6 +61,9 @@ struct Quantity {
     std::string (*refuse)(const Case& testCase, Output output) = nullptr;
     PixelAnswer (*answer)(const QuantityInput& input, size_t pixel) = nullptr;
 };
+
+// Those of the hierarchy; part of analyticQuantities().
+std::vector<Quantity> hierarchyQuantities();
 
 const std::vector<Quantity>& analyticQuantities();
 const std::vector<Quantity>& truthTable();

@@ -210,7 +210,13 @@ const std::vector<Quantity>& analyticQuantities()
             "Radiance of what the case's ray meets in the scene, the sky included; Color: times its screen weight.",
             {kColor, kSampledColor}, nullptr, refuseRecorded, answerRadiance),
     };
-    return table;
+    static const std::vector<Quantity> all = [] {
+        std::vector<Quantity> joined = table;
+        for (Quantity& quantity : hierarchyQuantities())
+            joined.push_back(std::move(quantity));
+        return joined;
+    }();
+    return all;
 }
 
 } // namespace crossray

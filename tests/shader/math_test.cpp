@@ -115,6 +115,10 @@ TEST(ShaderOutputs, AgreeWithTheHarness)
         {kOutputHitPositionSS, "HitPositionSS"},
         {kOutputPathLength, "PathLength"},
         {kOutputRayOriginWS, "RayOriginWS"},
+        {kOutputTierWeights, "TierWeights"},
+        {kOutputProbeWeights, "ProbeWeights"},
+        {kOutputProbeDirWS, "ProbeDirWS"},
+        {kOutputProbeMipLevel, "ProbeMipLevel"},
     };
     EXPECT_EQ(static_cast<size_t>(kOutputCount), ids.size());
     ASSERT_EQ(crossray::allOutputs().size(), ids.size());

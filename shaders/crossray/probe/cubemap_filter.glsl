@@ -3,7 +3,7 @@
 // Hooks: fetchProbeTexel(cubemap, face, texel, level) (linear radiance; the texel is inside the face),
 // probeCubeSize(cubemap) (texels a side of level 0; level l has max(1, size >> l)), probeCubeLevelCount(cubemap).
 // Source: seamless cube map filtering of the OpenGL and Vulkan specifications; at a corner, where three faces meet, the
-// fourth texel is that of the nearer side instead of their mean.
+// fourth texel is the mean of the three, so that the edges stay without seams there too.
 //
 // 8 fetches. A direction without direction reads the middle of face 0, a level beyond the chain its last one, NaN level
 // 0. Texels below 0, NaN or infinite count as 0, above 65504 as 65504.
@@ -33,6 +33,28 @@ vec3 fetchFoldedTexel(int cubemap, int face, ivec2 texel, int level, int size)
     return vec3(usableRadiance(radiance.x), usableRadiance(radiance.y), usableRadiance(radiance.z));
 }
 
+// Along one axis of a footprint of two texels, the first at `base`: what the one beyond the face's edge weighs; 0 where
+// both are on the face.
+float weightBeyondEdge(float base, float share, int size)
+{
+    float second = choose(base + 1.0 >= float(size), share, 0.0);
+    return choose(base < 0.0, 1.0 - share, second);
+}
+
+// What the texel at `offset` (0 or 1 each) of the footprint at `base` weighs. The texel beyond a corner does not exist:
+// it leaves a third of its weight to each of the others.
+float computeTapWeight(vec2 base, vec2 share, ivec2 offset, int size)
+{
+    float weightX = choose(offset.x == 1, share.x, 1.0 - share.x);
+    float weightY = choose(offset.y == 1, share.y, 1.0 - share.y);
+    float missing = weightBeyondEdge(base.x, share.x, size) * weightBeyondEdge(base.y, share.y, size);
+    vec2 texel = base + vec2(offset);
+    vec2 middle = vec2(0.5 * float(size - 1));
+    vec2 beyond = abs(texel - middle) - middle; // above 0 beyond an edge
+    bool isMissing = min(beyond.x, beyond.y) > 0.0;
+    return choose(isMissing, 0.0, weightX * weightY + missing / 3.0);
+}
+
 // Radiance of a cubemap towards a direction of any length, at a mip level between 0 and the last.
 vec3 sampleProbeCubemap(int cubemap, vec3 dir, float level)
 {
@@ -49,11 +71,10 @@ vec3 sampleProbeCubemap(int cubemap, vec3 dir, float level)
         vec2 base = floor(corner);
         vec2 share = corner - base;
         ivec2 offset = ivec2(tap & 1, (tap >> 1) & 1);
-        float weightX = choose(offset.x == 1, share.x, 1.0 - share.x);
-        float weightY = choose(offset.y == 1, share.y, 1.0 - share.y);
+        float weight = computeTapWeight(base, share, offset, size);
         float weightLevel = choose(tap >= 4, coarseness, 1.0 - coarseness);
         vec3 radiance = fetchFoldedTexel(cubemap, position.face, ivec2(base) + offset, tapLevel, size);
-        sum = sum + radiance * (weightX * weightY * weightLevel);
+        sum = sum + radiance * (weight * weightLevel);
     }
     return sum;
 }

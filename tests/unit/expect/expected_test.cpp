@@ -277,6 +277,7 @@ TEST(Expected, everyFormAnswersForEachOfItsOutputs)
     for (const ClosedForm& form : closedForms()) {
         testCase.projection.model = form.name == "screen_weight" ? ProjectionModel::kHiz : ProjectionModel::kNone;
         if (form.name == "linear_march") testCase.projection.model = ProjectionModel::kLinear;
+        testCase.hierarchy = form.name == "hierarchy" ? unsigned{kTierSky} : 0;
         const CaseData data(testCase);
         EXPECT_FALSE(form.summary.empty());
         ASSERT_FALSE(form.outputs.empty()) << form.name;
