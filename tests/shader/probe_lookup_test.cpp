@@ -204,6 +204,18 @@ TEST(ShaderTwoProbes, EachDecodedWithItsOwnConstants)
 }
 
 // Claim 15: the second probe is sampled only below a weight of 0.99999.
+TEST(ShaderTwoProbes, SharesSumToOne)
+{
+    EXPECT_EQ(computeTwoProbeWeights(Real(0.25)).first, Real(0.25));
+    EXPECT_EQ(computeTwoProbeWeights(Real(0.25)).second, Real(0.75));
+    EXPECT_GT(computeTwoProbeWeights(Real(0.99998)).second, 0);
+    for (Real whole : {Real(0.99999), Real(1), Real(2), kNaN}) {
+        EXPECT_EQ(computeTwoProbeWeights(whole).first, 1);
+        EXPECT_EQ(computeTwoProbeWeights(whole).second, 0);
+    }
+    EXPECT_EQ(computeTwoProbeWeights(Real(-1)).second, 1);
+}
+
 TEST(ShaderTwoProbes, TheSecondOnlyBelowTheCut)
 {
     EXPECT_TRUE(needsSecondProbe(Real(0.99998)));

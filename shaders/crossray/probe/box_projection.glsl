@@ -32,24 +32,32 @@ struct BoxProjection {
 float distanceToFace(float toFace, float dir)
 {
     bool isParallel = abs(dir) < 1e-20;
-    return isParallel ? 1e30 : toFace / (isParallel ? 1.0 : dir);
+    return choose(isParallel, 1e30, toFace / choose(isParallel, 1.0, dir));
 }
 
 // Takes the distance if the point there lies on the box, ahead.
 BoxProjection finishBoxProjection(vec3 dir, vec3 positionWS, ProbeBox box, float distance)
 {
     vec3 extent = box.maxWS - box.minWS;
-    bool isBox = isFinite(box.minWS) && isFinite(box.maxWS) && minComponent(extent) >= 0.0;
-    bool isAsked = box.capturePositionWS.w > 0.0 && isFinite(box.capturePositionWS.xyz) && hasDirection(dir);
+    bool hasMin = isFinite(box.minWS);
+    bool hasMax = isFinite(box.maxWS);
+    bool hasSize = minComponent(extent) >= 0.0;
+    bool isAsked = box.capturePositionWS.w > 0.0;
+    bool hasCapture = isFinite(box.capturePositionWS.xyz);
+    bool hasRay = hasDirection(dir);
     float margin = kProxyTolerance * maxComponent(extent);
-    bool isAhead = distance >= -margin && distance < 1e29;
-    float used = isAhead ? max(distance, 0.0) : 0.0;
+    bool isForward = distance >= -margin;
+    bool isMet = distance < 1e29;
+    bool isAhead = isForward && isMet;
+    float used = choose(isAhead, max(distance, 0.0), 0.0);
     vec3 hitWS = positionWS + dir * used;
-    bool isOnBox = minComponent(hitWS - box.minWS) >= -margin && minComponent(box.maxWS - hitWS) >= -margin;
-    if (isBox && isAsked && isAhead && isOnBox && isFinite(hitWS)) {
-        return BoxProjection(safeNormalize(hitWS - box.capturePositionWS.xyz, dir), used, true);
-    }
-    return BoxProjection(dir, 0.0, false);
+    bool isAboveMin = minComponent(hitWS - box.minWS) >= -margin;
+    bool isBelowMax = minComponent(box.maxWS - hitWS) >= -margin;
+    bool isPoint = isFinite(hitWS);
+    bool isBox = hasMin && hasMax && hasSize;
+    bool applied = isBox && isAsked && hasCapture && hasRay && isAhead && isAboveMin && isBelowMax && isPoint;
+    vec3 seenDir = safeNormalize(hitWS - box.capturePositionWS.xyz, dir);
+    return BoxProjection(choose(applied, seenDir, dir), choose(applied, used, 0.0), applied);
 }
 
 // Both faces of each axis by division, the one ahead chosen by the direction's sign.

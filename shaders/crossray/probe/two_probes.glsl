@@ -16,6 +16,18 @@ bool needsSecondProbe(float firstWeight)
     return firstWeight < kSingleProbeWeight;
 }
 
+struct TwoProbeWeights {
+    float first;
+    float second; // 0: not fetched
+};
+
+// Shares of the two, 1 in sum.
+TwoProbeWeights computeTwoProbeWeights(float firstWeight)
+{
+    float first = choose(needsSecondProbe(firstWeight), saturate(firstWeight), 1.0);
+    return TwoProbeWeights(first, 1.0 - first);
+}
+
 // Mixed colour. A probe that has no weight is left out, not multiplied by 0: a NaN in it does not spread. The second
 // alone answers for weights of 0 and below.
 vec3 blendTwoProbes(vec3 first, vec3 second, float firstWeight)

@@ -48,39 +48,54 @@ struct UrpStep {
     bool done;    // no further probe is asked
 };
 
+bool isUrpBox(UrpProbe probe)
+{
+    bool hasMin = isFinite(probe.boxMinWS);
+    bool hasMax = isFinite(probe.boxMaxWS);
+    return hasMin && hasMax;
+}
+
 // Weight of a probe at a point: 0 on a face and outside, linear over the blend distance, 1 deeper than it from every
 // face; never 1 where it exceeds half the extent. A blend distance of 0 (below, NaN) has no ramp: 1 inside, 0 on the
 // faces.
 float computeUrpWeight(UrpProbe probe, vec3 positionWS)
 {
     float depth = min(minComponent(positionWS - probe.boxMinWS), minComponent(probe.boxMaxWS - positionWS));
-    bool isInside = isFinite(positionWS) && isFinite(probe.boxMinWS) && isFinite(probe.boxMaxWS) && depth > 0.0;
-    float ramp = probe.blendDistance > 0.0 ? saturate(safeDivide(depth, probe.blendDistance, 1.0)) : 1.0;
-    return isInside ? ramp : 0.0;
+    bool isPoint = isFinite(positionWS);
+    bool isBox = isUrpBox(probe);
+    bool isInside = depth > 0.0;
+    float ramp = saturate(safeDivide(depth, probe.blendDistance, 1.0));
+    float weight = choose(probe.blendDistance > 0.0, ramp, 1.0);
+    return choose(isPoint && isBox && isInside, weight, 0.0);
 }
 
 // What a profile takes for a probe's size: cubic metres, or the square metres of the diagonal, in half precision
-// without limit from 65504 on. A box with swapped or missing ends has size 0, or no limit where it is not finite.
+// without limit beyond 65504, a diagonal of 255.9 m. A box with swapped ends has size 0, one that is not finite no
+// limit.
 float computeUrpSize(UrpProbe probe, int profile)
 {
     vec3 side = max(probe.boxMaxWS - probe.boxMinWS, 0.0);
-    float size = profile == kUrpDoc ? side.x * side.y * side.z : dot(side, side);
-    bool overflows = profile == kUrpUnityHalf && size > kFarAway;
-    bool isUsable = isFinite(probe.boxMinWS) && isFinite(probe.boxMaxWS) && size < kUrpUnlimitedSize;
-    return isUsable && !overflows ? size : kUrpUnlimitedSize;
+    float size = choose(profile == kUrpDoc, side.x * side.y * side.z, dot(side, side));
+    bool isBox = isUrpBox(probe);
+    bool fits = size <= choose(profile == kUrpUnityHalf, kFarAway, kUrpUnlimitedSize);
+    return choose(isBox && fits, size, kUrpUnlimitedSize);
 }
 
 // True where a comes before b: more important; else smaller; else (manual) covering more of the surface; else by index.
 bool urpProbeComesFirst(UrpProbe a, UrpProbe b, int profile)
 {
-    if (a.importance > b.importance) return true;
-    if (a.importance < b.importance) return false;
     float sizeA = computeUrpSize(a, profile);
     float sizeB = computeUrpSize(b, profile);
-    if (sizeA != sizeB) return sizeA < sizeB;
-    if (profile == kUrpDoc && a.coveredArea > b.coveredArea) return true;
-    if (profile == kUrpDoc && a.coveredArea < b.coveredArea) return false;
-    return a.index < b.index;
+    bool coversMore = a.coveredArea > b.coveredArea;
+    bool coversLess = a.coveredArea < b.coveredArea;
+    bool isCovered = profile == kUrpDoc && coversMore != coversLess;
+    bool isBefore = a.index < b.index;
+    bool byArea = isCovered ? coversMore : isBefore;
+    bool isSmaller = sizeA < sizeB;
+    bool bySize = sizeA == sizeB ? byArea : isSmaller;
+    bool countsMore = a.importance > b.importance;
+    bool countsLess = a.importance < b.importance;
+    return countsMore != countsLess ? countsMore : bySize;
 }
 
 UrpPair makeUrpPair()
@@ -89,17 +104,26 @@ UrpPair makeUrpPair()
     return UrpPair(kUrpNoProbe, kUrpNoProbe, none, none);
 }
 
+UrpProbe chooseUrpProbe(bool condition, UrpProbe yes, UrpProbe no)
+{
+    return UrpProbe(choose(condition, yes.boxMinWS, no.boxMinWS), choose(condition, yes.boxMaxWS, no.boxMaxWS),
+                    choose(condition, yes.blendDistance, no.blendDistance),
+                    choose(condition, yes.importance, no.importance),
+                    choose(condition, yes.coveredArea, no.coveredArea), choose(condition, yes.index, no.index));
+}
+
 // Offers the probe at `position` of the caller's list (0 and up): the pair keeps the first two of all that were
 // offered, in whatever order they come.
 UrpPair offerUrpProbe(UrpPair pair, UrpProbe probe, int position, int profile)
 {
-    if (pair.first == kUrpNoProbe || urpProbeComesFirst(probe, pair.firstProbe, profile)) {
-        return UrpPair(position, pair.first, probe, pair.firstProbe);
-    }
-    if (pair.second == kUrpNoProbe || urpProbeComesFirst(probe, pair.secondProbe, profile)) {
-        return UrpPair(pair.first, position, pair.firstProbe, probe);
-    }
-    return pair;
+    bool beatsFirst = urpProbeComesFirst(probe, pair.firstProbe, profile);
+    bool beatsSecond = urpProbeComesFirst(probe, pair.secondProbe, profile);
+    bool isFirst = pair.first == kUrpNoProbe || beatsFirst;
+    bool isSecond = pair.second == kUrpNoProbe || beatsSecond;
+    UrpProbe behind = chooseUrpProbe(isSecond, probe, pair.secondProbe);
+    int behindPosition = choose(isSecond, position, pair.second);
+    return UrpPair(choose(isFirst, position, pair.first), choose(isFirst, pair.first, behindPosition),
+                   chooseUrpProbe(isFirst, probe, pair.firstProbe), chooseUrpProbe(isFirst, pair.firstProbe, behind));
 }
 
 // Which of two probes holds its whole weight against the other: 1 the first, -1 the second, 0 neither.
@@ -149,8 +173,8 @@ UrpWeights computeUrpPairShares(UrpPair pair, vec3 positionWS, int profile)
 UrpStep stepUrpForwardPlus(float total, float probeWeight)
 {
     float before = saturate(total);
-    if (before >= kUrpFull) return UrpStep(0.0, before, true);
-    float weight = min(saturate(probeWeight), 1.0 - before);
+    float asked = min(saturate(probeWeight), 1.0 - before);
+    float weight = choose(before >= kUrpFull, 0.0, asked);
     float after = min(before + weight, 1.0);
     return UrpStep(weight, after, after >= kUrpFull);
 }
