@@ -64,6 +64,8 @@ struct Quantity {
 
 // Those of the hierarchy; part of analyticQuantities().
 std::vector<Quantity> hierarchyQuantities();
+// Those of the Built-in and the URP profile; part of it, too.
+std::vector<Quantity> profileQuantities();
 
 const std::vector<Quantity>& analyticQuantities();
 const std::vector<Quantity>& truthTable();

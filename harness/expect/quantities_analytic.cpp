@@ -214,6 +214,8 @@ const std::vector<Quantity>& analyticQuantities()
         std::vector<Quantity> joined = table;
         for (Quantity& quantity : hierarchyQuantities())
             joined.push_back(std::move(quantity));
+        for (Quantity& quantity : profileQuantities())
+            joined.push_back(std::move(quantity));
         return joined;
     }();
     return all;

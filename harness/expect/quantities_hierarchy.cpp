@@ -51,6 +51,8 @@ PixelAnswer answerHierarchy(const QuantityInput& input, size_t pixel)
 std::string refuseWhereItHasNoTiers(const Case& testCase, Output)
 {
     if (testCase.hierarchy == 0) return "the case has no tiers; a hierarchy is needed";
+    if (testCase.probeProfile != ProbeProfile::kHdrp)
+        return "it is of the profile hdrp; probe_profile is of the others";
     const ProjectionModel model = testCase.projection.model;
     const bool isMarch = model == ProjectionModel::kHiz || model == ProjectionModel::kLinear;
     if (isMarch && (testCase.hierarchy & kTierScreen))

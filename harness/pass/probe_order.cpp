@@ -10,10 +10,12 @@ namespace hdrp {
 int keyOf(double x, double y, double z);
 }
 
-std::vector<size_t> orderProbes(const std::vector<Probe>& probes)
+std::vector<size_t> orderProbes(const Case& testCase)
 {
+    const std::vector<Probe>& probes = testCase.probes;
     std::vector<size_t> order(probes.size());
     std::iota(order.begin(), order.end(), size_t{0});
+    if (testCase.probeProfile != ProbeProfile::kHdrp) return order;
     const auto keyOf = [&](size_t probe) {
         const glm::dvec3& extents = probes[probe].influence.halfExtents;
         return hdrp::keyOf(extents.x, extents.y, extents.z);

@@ -1,6 +1,7 @@
 #include "harness/pass/probe_params.h"
 
 #include "harness/base/error.h"
+#include "harness/pass/object_bounds.h"
 #include "harness/pass/params.h"
 
 #include <fmt/format.h>
@@ -43,11 +44,12 @@ class ProbeParamsFiller {
         const auto placeOf = [&](size_t cubemap) {
             return glm::ivec4(rows[cubemap], cubemaps[cubemap].size, cubemaps[cubemap].levelCount(), 0);
         };
-        const std::vector<size_t> order = orderProbes(testCase_.probes);
+        const std::vector<size_t> order = orderProbes(testCase_);
         for (size_t place = 0; place < order.size(); ++place) {
             fillItem(params_.items[place], testCase_.probes[order[place]], static_cast<int>(order[place]));
             params_.cubemaps[place] = placeOf(order[place]);
         }
+        if (testCase_.probeProfile != ProbeProfile::kHdrp) fillProfile();
         if (cubemaps.size() > testCase_.probes.size()) params_.cubemaps[kMaxProbes] = placeOf(testCase_.probes.size());
         return params_;
     }
@@ -76,6 +78,26 @@ class ProbeParamsFiller {
         item.proxyCenterWS = vector(probe.proxy.center, probe.minProjectionDistance);
         item.proxyExtents = vector(probe.proxy.halfExtents, 0.0);
         item.capturePositionWS = vector(probe.capturePosition, 0.0);
+    }
+
+    // What the profiles read that know boxes along the axes of the world.
+    void fillProfile()
+    {
+        const ObjectBounds object = findObjectBounds(testCase_);
+        params_.objectMinWS = vector(object.minWS, 0.0);
+        params_.objectMaxWS = vector(object.maxWS, 0.0);
+        for (size_t place = 0; place < testCase_.probes.size(); ++place) {
+            const Probe& probe = testCase_.probes[place];
+            const RgbmDecoding rgbm = probe.rgbm.value_or(RgbmDecoding{});
+            const ObjectBounds box{probe.influence.center - probe.influence.halfExtents,
+                                   probe.influence.center + probe.influence.halfExtents};
+            Item& item = params_.items[place];
+            item.boxMinWS = vector(box.minWS, probe.blend.positive.x);
+            item.boxMaxWS = vector(box.maxWS, static_cast<double>(probe.importance));
+            item.lookUp = Vec4(glm::dvec4(measureCoveredArea(object, box), probe.boxProjection ? 1.0 : 0.0,
+                                          probe.rgbm ? 1.0 : 0.0, rgbm.alpha));
+            item.decode = Vec4(glm::dvec4(rgbm.range, rgbm.exponent, 0.0, rgbm.alphaWeight));
+        }
     }
 
     const CaseData& data_;

@@ -14,8 +14,8 @@ bool usesProbes(const Case& testCase);
 
 // The places of the case's probes in the order in which its profile asks them. HDRP: by the sort key of
 // crossray/probe/hdrp_order.glsl in doubles, equal keys by their places; that code is the shader library's own, and one
-// order serves all devices.
-std::vector<size_t> orderProbes(const std::vector<Probe>& probes);
+// order serves all devices. Those of the other profiles stay where they are: their order is found by the shader.
+std::vector<size_t> orderProbes(const Case& testCase);
 
 // The block ProbeParams of crossray/shared/probe_params.glsl, laid out by std140 (float) or as its mirror in doubles.
 std::vector<std::byte> makeProbeParams(const CaseData& data, Precision precision);

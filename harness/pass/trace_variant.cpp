@@ -10,6 +10,24 @@ uint32_t makeOutputMask(const Case& testCase)
     return mask;
 }
 
+namespace {
+
+// The bits of shaders/pass/probe_profiles.glsl.
+int makeProfileSwitches(const ProfileSettings& profile)
+{
+    int bits = 0;
+    int bit = 1;
+    for (const bool isOn :
+         {profile.blending, profile.boxProjection, profile.forwardPlus, profile.halfPrecision, profile.exactMip,
+          profile.gammaSpace, profile.boxProjectionForm == BoxProjectionForm::kSelect}) {
+        bits |= isOn ? bit : 0;
+        bit *= 2;
+    }
+    return bits;
+}
+
+} // namespace
+
 std::map<std::string, double> makeTraceVariant(const Case& testCase)
 {
     const Camera& camera = testCase.camera;
@@ -23,6 +41,8 @@ std::map<std::string, double> makeTraceVariant(const Case& testCase)
         {"kScreenWeightForm", static_cast<int>(testCase.projection.screenWeightForm)},
         {"kHierarchy", testCase.hierarchy},
         {"kSkyModel", static_cast<int>(testCase.sky.model)},
+        {"kProbeProfile", static_cast<int>(testCase.probeProfile)},
+        {"kProfileSwitches", makeProfileSwitches(testCase.profile)},
     };
 }
 

@@ -7,6 +7,7 @@
 #include "crossray/probe/sky.glsl"
 #include "pass/output_slots.glsl"
 #include "pass/pixel_color.glsl"
+#include "pass/probe_profiles.glsl"
 #include "pass/probe_tier.glsl"
 
 // The bits of kHierarchy.
@@ -42,7 +43,9 @@ bool wantsHierarchy()
 vec3 readSky(vec3 dirWS)
 {
     if (kSkyModel == kSkyCubemap) {
-        float mipLevel = computeProbeMip(params.material.z, probeCubeLevelCount(CROSSRAY_MAX_PROBES));
+        int levels = probeCubeLevelCount(CROSSRAY_MAX_PROBES);
+        float mipLevel = kProbeProfile == kProfileHdrp ? computeProbeMip(params.material.z, levels)
+                                                       : computeProfileMip(params.material.z, levels);
         return sampleProbeCubemap(CROSSRAY_MAX_PROBES, dirWS, mipLevel);
     }
     return evaluateGradientSky(GradientSky(probeParams.skyZenith.xyz, probeParams.skyHorizon.xyz,
@@ -61,7 +64,9 @@ HierarchyAnswer askTiers(PixelSurface surface, PixelAnswer answer, ScreenColor s
         full = added.hierarchyWeight;
     }
     if ((kHierarchy & kTierProbes) != 0) {
-        ProbeTier tier = askProbes(surface, answer.rayOriginWS, answer.rayDirWS, full);
+        ProbeTier tier = kProbeProfile == kProfileHdrp
+                             ? askProbes(surface, answer.rayOriginWS, answer.rayDirWS, full)
+                             : askProfileProbes(surface, answer.rayOriginWS, answer.rayDirWS, full);
         result = HierarchyAnswer(result.color + tier.color, result.tierWeights + vec4(0.0, tier.weight, 0.0, 0.0),
                                  tier.weights, tier.firstDirWS, tier.firstMipLevel);
         full = tier.hierarchyWeight;

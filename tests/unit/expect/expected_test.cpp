@@ -274,10 +274,15 @@ TEST(Expected, refractionsReasonNeedsProjectionNone)
 TEST(Expected, everyFormAnswersForEachOfItsOutputs)
 {
     Case testCase = glassSphere();
+    Probe probe;
+    probe.influence.halfExtents = glm::dvec3(20.0);
+    testCase.probes.push_back(probe);
     for (const ClosedForm& form : closedForms()) {
         testCase.projection.model = form.name == "screen_weight" ? ProjectionModel::kHiz : ProjectionModel::kNone;
         if (form.name == "linear_march") testCase.projection.model = ProjectionModel::kLinear;
         testCase.hierarchy = form.name == "hierarchy" ? unsigned{kTierSky} : 0;
+        testCase.probeProfile = form.name == "probe_profile" ? ProbeProfile::kBuiltIn : ProbeProfile::kHdrp;
+        testCase.mustFail = form.name == "box_projection_published";
         const CaseData data(testCase);
         EXPECT_FALSE(form.summary.empty());
         ASSERT_FALSE(form.outputs.empty()) << form.name;
