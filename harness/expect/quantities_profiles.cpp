@@ -12,6 +12,7 @@ PixelAnswer answerProfile(const QuantityInput& input, size_t pixel)
     const SurfacePoint& surface = (*input.surfaces)[pixel];
     PixelAnswer answer;
     answer.ray = computeEffectRay(testCase, surface);
+    if (answer.ray.status != HitReason::kNone) return answer; // no ray, no tier
     const ProfileAnswer profile = answerByProfile(testCase, surface.positionWS, answer.ray);
     answer.radiance = profile.color;
     answer.hitWeight = 1.0; // the shares are in it
