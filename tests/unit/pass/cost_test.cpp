@@ -107,3 +107,14 @@ TEST(Cost, probesAreReadWhereTheyAreAskedForAlone)
     EXPECT_FALSE(without.bindings.contains(kProbeParamsBinding));
     EXPECT_FALSE(without.bindings.contains(kProbeAtlasBinding));
 }
+
+TEST(Cost, aProfileHasTheCodeThatItNeeds)
+{
+    const Cost builtIn = costOfTrace("probe/builtin_two_probes");
+    EXPECT_EQ(builtIn.fetches.at(kProbeAtlasBinding), 1); // in a loop over probes and footprint
+    EXPECT_EQ(builtIn.loops, 3);                          // with the one that chooses the object's pair
+    EXPECT_EQ(costOfTrace("probe/urp_forward").loops, 3);
+    EXPECT_EQ(costOfTrace("probe/urp_forward_plus").loops, 3); // no pair; who comes before, for each probe
+    const size_t along = costOfTrace("probe/profile_box_projection_switched_off").instructions;
+    EXPECT_LT(along, costOfTrace("probe/urp_weighs_per_pixel").instructions); // the sky, and box projection
+}
