@@ -27,6 +27,7 @@ constexpr std::array kOutputs{
     OutputInfo{17, "ProbeWeights", OutputType::kScalar, 4, "", "What each of the case's first four probes got."},
     OutputInfo{18, "ProbeDirWS", OutputType::kDirection, 3, "", "Direction in which the first probe that got something is read; 0 without one."},
     OutputInfo{19, "ProbeMipLevel", OutputType::kScalar, 1, "", "Mip level at which it is read."},
+    OutputInfo{20, "Confidence", OutputType::kScalar, 1, "", "Share of such hits that are right; 0 without a hit, 1 where the model does not say."},
 };
 
 } // namespace

@@ -288,9 +288,16 @@ void buildProjection(const TableReader& top, Case& testCase)
     const TableReader table = top.table("projection");
     Projection& projection = testCase.projection;
     projection.model = static_cast<ProjectionModel>(table.choice("model"));
-    projection.hiz = {table.integer("min_level"), table.integer("max_level"), table.integer("max_iterations"),
-                      table.number("depth_bias")};
-    if (projection.hiz.minLevel > projection.hiz.maxLevel) {
+    projection.hiz.minLevel = table.integer("min_level");
+    projection.hiz.depthBias = table.number("depth_bias");
+    projection.patches.caution = table.number("caution");
+    projection.patches.depthError = table.number("depth_error");
+    if (table.has("max_level")) projection.hiz.maxLevel = projection.patches.maxLevel = table.integer("max_level");
+    if (table.has("max_iterations")) {
+        projection.hiz.maxIterations = projection.patches.maxIterations = table.integer("max_iterations");
+    }
+    const bool isHiz = projection.model != ProjectionModel::kPatches;
+    if (isHiz && projection.hiz.minLevel > projection.hiz.maxLevel) {
         throw InputError(table.position(table.has("min_level") ? "min_level" : "max_level"),
                          fmt::format("\"min_level\" is {}; at most \"max_level\", which is {}, is allowed",
                                      projection.hiz.minLevel, projection.hiz.maxLevel));

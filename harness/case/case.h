@@ -20,7 +20,15 @@
 namespace crossray {
 
 enum class RefractionModel { kNone = 0, kSphere = 1, kBox = 2, kThin = 3 };
-enum class ProjectionModel { kNone = 0, kProxyInfinite = 1, kProxyBox = 2, kProxySphere = 3, kHiz = 4, kLinear = 5 };
+enum class ProjectionModel {
+    kNone = 0,
+    kProxyInfinite = 1,
+    kProxyBox = 2,
+    kProxySphere = 3,
+    kHiz = 4,
+    kLinear = 5,
+    kPatches = 6
+};
 // The text's linear ramp, Unity 2018's smoothed ramp, today's smoothed ramp of half the width (domain, section 2).
 enum class ScreenWeightForm { kLinear = 0, kSmooth2018 = 1, kSmoothToday = 2 };
 
@@ -54,11 +62,19 @@ struct LinearSettings {
     int bisections = 0;     // halvings after a crossing
 };
 
+struct PatchSettings {
+    int maxLevel = 14;
+    int maxIterations = 512;
+    double caution = 0.4;    // clearance that a hidden ray needs to have passed behind
+    double depthError = 0.0; // affine depth by which the buffer may be wrong
+};
+
 struct Projection {
     ProjectionModel model = ProjectionModel::kNone; // none: only the ray is computed
     ProxyVolume proxy;
     HizSettings hiz;
     LinearSettings linear;
+    PatchSettings patches;
     double screenWeightDistance = 0.1; // NDC in [0,1]
     ScreenWeightForm screenWeightForm = ScreenWeightForm::kSmooth2018;
 };

@@ -39,7 +39,7 @@ std::vector<KeySpec> projectionKeys()
 {
     return {
         Key("projection", "model", kChoice)
-            .oneOf({"none", "proxy_infinite", "proxy_box", "proxy_sphere", "hiz", "linear"})
+            .oneOf({"none", "proxy_infinite", "proxy_box", "proxy_sphere", "hiz", "linear", "patches"})
             .byDefault("\"none\"")
             .says("What the ray is projected on; none computes the ray alone."),
         Key("projection", "proxy", kTable)
@@ -54,18 +54,28 @@ std::vector<KeySpec> projectionKeys()
         Key("projection", "max_level", kInteger)
             .atLeast(0)
             .atMost(14)
-            .byDefault("6")
-            .says("HiZ: coarsest level; not below min_level; beyond the pyramid's last it is the last."),
+            .withoutIt("6; patches: 14")
+            .says("Coarsest level; not below min_level; beyond the pyramid's last it is the last."),
         Key("projection", "max_iterations", kInteger)
             .atLeast(1)
             .atMost(65535)
-            .byDefault("32")
-            .says("HiZ: steps after which the answer is unknown."),
+            .withoutIt("32; patches: 512")
+            .says("Steps after which the answer is unknown."),
         Key("projection", "depth_bias", kNumber)
             .atLeast(0)
             .atMost(1e6)
             .byDefault("1.0")
             .says("HiZ: thickness of what the depth buffer shows, metres."),
+        Key("projection", "caution", kNumber)
+            .atLeast(0)
+            .atMost(1e6)
+            .byDefault("0.4")
+            .says("Patches: clearance that a hidden ray needs to have passed behind what hid it; 0 is greedy."),
+        Key("projection", "depth_error", kNumber)
+            .atLeast(0)
+            .atMost(1)
+            .byDefault("0.0")
+            .says("Patches: affine depth by which the depth buffer may be wrong, 1/m."),
         Key("projection", "screen_weight_distance", kNumber)
             .atLeast(0)
             .atMost(1)

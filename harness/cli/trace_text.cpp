@@ -18,9 +18,10 @@ constexpr int kValueWidth = 44;
 struct Row {
     const char* label;
     std::string (*format)(const PixelRecord& record);
-    bool isExact = false;   // differing texts are a difference in kind, and marked
-    bool isOfMarch = false; // only where there are steps to speak of
-    bool isOfProxy = false; // only where there is a proxy
+    bool isExact = false;     // differing texts are a difference in kind, and marked
+    bool isOfMarch = false;   // only where there are steps to speak of
+    bool isOfProxy = false;   // only where there is a proxy
+    bool isOfPatches = false; // only where the model says how sure it is of a hit
 };
 
 bool isProxy(const PixelRecord& record)
@@ -84,6 +85,7 @@ const Row kRows[] = {
      true},
     {"end", formatEnd},
     {"hit weight", [](const PixelRecord& r) { return fmt::format("{:.6g}", r.hitWeight); }},
+    {"confidence", [](const PixelRecord& r) { return fmt::format("{:.4g}", r.confidence); }, false, false, false, true},
     {"sampled colour",
      [](const PixelRecord& r) {
          return fmt::format("{}, weight {:.6g}", formatVector(r.sampledColor), r.sampledColorWeight);
@@ -98,7 +100,10 @@ std::string formatHeader(const PixelTrace& trace, const Style& style)
     text = style.paint(Ink::kBold, text) + "\n";
     for (const Row& row : kRows) {
         const PixelRecord& first = trace.records.front().record;
-        if ((row.isOfMarch && !isMarch(first)) || (row.isOfProxy && !isProxy(first))) continue;
+        const bool hasConfidence = first.model == ProjectionModel::kPatches;
+        const bool isMissing = (row.isOfMarch && !isMarch(first)) || (row.isOfProxy && !isProxy(first)) ||
+                               (row.isOfPatches && !hasConfidence);
+        if (isMissing) continue;
         std::string line;
         bool differs = false;
         for (const RecordOnBackend& record : trace.records) {

@@ -129,6 +129,10 @@ void printProjection(const Projection& projection)
                    linear.maxIterations, linear.bisections, linear.depthBias);
         break;
     }
+    case ProjectionModel::kPatches:
+        fmt::print("projection patches, levels to {}, {} iterations, caution {:g}", projection.patches.maxLevel,
+                   projection.patches.maxIterations, projection.patches.caution);
+        break;
     }
     fmt::print(", screen weight over {:g}\n", projection.screenWeightDistance);
 }

@@ -84,7 +84,7 @@ PixelAnswer answerInfiniteProxy(const QuantityInput& input, size_t pixel)
 bool isMarch(const Case& testCase)
 {
     const ProjectionModel model = testCase.projection.model;
-    return model == ProjectionModel::kHiz || model == ProjectionModel::kLinear;
+    return model == ProjectionModel::kHiz || model == ProjectionModel::kLinear || model == ProjectionModel::kPatches;
 }
 
 // Where the case's projection should end: a proxy by its closed form; a march on the nearest surface that its ray meets
@@ -152,7 +152,7 @@ std::string refuseReasonOfCast(const Case& testCase, Output output)
 std::string refuseNoProjection(const Case& testCase, Output)
 {
     if (testCase.projection.model != ProjectionModel::kNone) return {};
-    return "the case projects nothing; a proxy, hiz or linear is needed";
+    return "the case projects nothing; a proxy or a march is needed";
 }
 
 bool always(const Case&)
@@ -198,10 +198,10 @@ const std::vector<Quantity>& analyticQuantities()
                      answerSphereProxy),
         makeQuantity("proxy_infinite", "65504 m along the case's ray.", projected, nullptr, nullptr,
                      answerInfiniteProxy),
-        makeQuantity("screen_weight",
-                     "Weight of the proxy's hit; for hiz and linear, of the true hit where the screen shows it. 0 "
-                     "without a hit.",
-                     {kHitWeight}, isMarch, refuseNoProjection, answerWeight),
+        makeQuantity(
+            "screen_weight",
+            "Weight of the proxy's hit; for a march, of the true hit where the screen shows it. 0 without a hit.",
+            {kHitWeight}, isMarch, refuseNoProjection, answerWeight),
         makeQuantity("linear_march",
                      "First sample of the linear march beyond the true hit, on surfaces that face the camera.",
                      {kHitPositionSS, kHitDepth, kIterationCount}, always, refuseOtherThanLinear, answerLinear),

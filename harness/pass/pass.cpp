@@ -98,15 +98,35 @@ class JobBuilder {
         }
     }
 
+    // The pyramid of planes: the same levels, from depth and normal.
+    void addSurfacePyramid(ShaderCompiler& compiler, const std::filesystem::path& shaderRoot, const Binding& depth,
+                           const Binding& normal)
+    {
+        const size_t cells = static_cast<size_t>(levels_.back().firstCell) + 1;
+        pyramid_ = addBuffer(kSurfaceBinding, storageBuffer(cells * 4));
+        // Level 0 asks what kind of view it is; the others only ask where their cells lie.
+        job_.programs.push_back(
+            compileEntry(compiler, shaderRoot, "entry/surface_pyramid.comp",
+                         {{"kOrthographic", isOrthographic() ? 1 : 0}, {"kReversedDepth", isReversed() ? 1 : 0}}));
+        for (size_t level = 0; level < levels_.size(); ++level) {
+            const Binding params = addBuffer(
+                kParamsBinding, uniformBuffer(makeSurfaceParams(data_.testCase(), levels_, level, precision_)));
+            job_.dispatches.push_back({job_.programs.size() - 1,
+                                       {params, depth, normal, *pyramid_},
+                                       groupsFor(levels_[level].width),
+                                       groupsFor(levels_[level].height),
+                                       1});
+        }
+    }
+
     // With a query the trace records that pixel, and writes no plane.
     void addTrace(ShaderCompiler& compiler, const std::filesystem::path& shaderRoot, const Binding& depth,
-                  const std::optional<PixelQuery>& query)
+                  const Binding& normal, const std::optional<PixelQuery>& query)
     {
         const Case& testCase = data_.testCase();
-        std::vector<Binding> bindings{depth};
+        std::vector<Binding> bindings{depth, normal};
         bindings.push_back(
             addBuffer(kParamsBinding, uniformBuffer(makePassParams(testCase, levels_, precision_, query))));
-        bindings.push_back(addImage(kNormalBinding, imageFromPlane(data_.gbuffer().plane(GBufferChannel::kNormalWS))));
         if (data_.gbuffer().planes.contains(GBufferChannel::kColor)) {
             bindings.push_back(addImage(kColorBinding, imageFromPlane(data_.gbuffer().plane(GBufferChannel::kColor))));
         }
@@ -154,8 +174,12 @@ Job buildTraceJob(const CaseData& data, ShaderCompiler& compiler, const std::fil
     JobBuilder builder(data, precision);
     const Binding depth =
         builder.addImage(kDepthBinding, imageFromPlane(data.gbuffer().plane(GBufferChannel::kDeviceDepth)));
-    if (data.testCase().projection.model == ProjectionModel::kHiz) builder.addPyramid(compiler, shaderRoot, depth);
-    builder.addTrace(compiler, shaderRoot, depth, query);
+    const Binding normal =
+        builder.addImage(kNormalBinding, imageFromPlane(data.gbuffer().plane(GBufferChannel::kNormalWS)));
+    const ProjectionModel model = data.testCase().projection.model;
+    if (model == ProjectionModel::kHiz) builder.addPyramid(compiler, shaderRoot, depth);
+    if (model == ProjectionModel::kPatches) builder.addSurfacePyramid(compiler, shaderRoot, depth, normal);
+    builder.addTrace(compiler, shaderRoot, depth, normal, query);
     return builder.take();
 }
 

@@ -67,6 +67,18 @@ Params fillPassParams(const Case& testCase, const std::vector<PyramidLevel>& lev
         glm::ivec4(projection.linear.steps, projection.linear.maxIterations, projection.linear.bisections, 0);
     params.hizLimits = glm::ivec4(projection.hiz.minLevel, projection.hiz.maxLevel, projection.hiz.maxIterations,
                                   static_cast<int>(levels.size()));
+    if (projection.model == ProjectionModel::kPatches) {
+        params.hizLimits.x = 0;
+        params.hizLimits.y = projection.patches.maxLevel;
+        params.hizLimits.z = projection.patches.maxIterations;
+        params.tracing.x = 0;
+    }
+    if (projection.model == ProjectionModel::kLinear) {
+        params.hizLimits.x = params.hizLimits.y = 0;
+        params.hizLimits.z = projection.linear.maxIterations;
+        params.tracing.x = static_cast<decltype(params.tracing.x)>(projection.linear.depthBias);
+    }
+    params.patches = Vec4(glm::dvec4(projection.patches.caution, projection.patches.depthError, 0.0, 0.0));
     params.record = glm::ivec4(query.x, query.y, query.stepCapacity, 0);
     for (size_t level = 0; level < levels.size(); ++level) {
         params.pyramidLevels[level] = {levels[level].firstCell, levels[level].width, levels[level].height, 0};
@@ -81,6 +93,25 @@ Params fillPyramidParams(const Case& testCase, const std::vector<PyramidLevel>& 
     const PyramidLevel& source = levels[target == 0 ? 0 : target - 1];
     Params params{};
     params.depthTerms = Vec4(computeDepthTerms(testCase.camera));
+    params.sourceLevel = {source.firstCell, source.width, source.height, static_cast<int>(target) - 1};
+    params.targetLevel = {levels[target].firstCell, levels[target].width, levels[target].height,
+                          static_cast<int>(target)};
+    return params;
+}
+
+template <class Params>
+Params fillSurfaceParams(const Case& testCase, const std::vector<PyramidLevel>& levels, size_t target)
+{
+    using Vec4 = decltype(Params::depthTerms);
+    using Mat4 = decltype(Params::viewFromWorld);
+    const Camera& camera = testCase.camera;
+    const glm::dvec2 slope = computeSlope(camera);
+    const PyramidLevel& source = levels[target == 0 ? 0 : target - 1];
+    Params params{};
+    params.viewFromWorld = Mat4(computeViewFromWorld(camera));
+    params.imageSizeAndSlope = Vec4(glm::dvec4(camera.width, camera.height, slope.x, slope.y));
+    params.depthTerms = Vec4(computeDepthTerms(camera));
+    params.patches = Vec4(glm::dvec4(0.0, testCase.projection.patches.depthError, 0.0, 0.0));
     params.sourceLevel = {source.firstCell, source.width, source.height, static_cast<int>(target) - 1};
     params.targetLevel = {levels[target].firstCell, levels[target].width, levels[target].height,
                           static_cast<int>(target)};
@@ -114,6 +145,14 @@ std::vector<std::byte> makePyramidParams(const Case& testCase, const std::vector
     return precision == Precision::kFloat
                ? bytesOf(fillPyramidParams<layout32::PyramidParams>(testCase, levels, target))
                : bytesOf(fillPyramidParams<layout64::PyramidParams>(testCase, levels, target));
+}
+
+std::vector<std::byte> makeSurfaceParams(const Case& testCase, const std::vector<PyramidLevel>& levels, size_t target,
+                                         Precision precision)
+{
+    return precision == Precision::kFloat
+               ? bytesOf(fillSurfaceParams<layout32::SurfaceParams>(testCase, levels, target))
+               : bytesOf(fillSurfaceParams<layout64::SurfaceParams>(testCase, levels, target));
 }
 
 } // namespace crossray

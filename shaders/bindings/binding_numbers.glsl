@@ -12,6 +12,7 @@ const int kPyramidBinding = 8;
 const int kOutputBinding = 9;
 const int kProbeAtlasBinding = 10;
 const int kRecordBinding = 12;
+const int kSurfaceBinding = 13;
 const int kProbeParamsBinding = 16;
 
 #endif

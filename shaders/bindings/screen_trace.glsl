@@ -13,6 +13,7 @@ layout(binding = kNormalBinding) uniform sampler2D normalImage; // rgb: unit nor
 layout(binding = kColorBinding) uniform sampler2D colorImage; // rgb: linear radiance
 layout(binding = kMaskBinding) uniform sampler2D traceMaskImage; // r: above 0.5 where the pixel traces a ray
 layout(std430, binding = kPyramidBinding) readonly buffer PyramidBlock { vec2 pyramidCells[]; }; // nearest, farthest linear depth
+layout(std430, binding = kSurfaceBinding) readonly buffer SurfaceBlock { vec4 surfaceCells[]; }; // packed, level after level
 layout(std430, binding = kOutputBinding) writeonly buffer OutputBlock { vec4 outputValues[]; }; // plane after plane
 layout(std430, binding = kRecordBinding) writeonly buffer RecordBlock { vec4 recordValues[]; }; // pass/record_layout.glsl
 layout(std140, binding = kProbeParamsBinding) uniform ProbeParamsBlock { ProbeParams probeParams; };
@@ -23,6 +24,7 @@ vec3 fetchNormalWS(ivec2 pixel) { return texelFetch(normalImage, pixel, 0).rgb; 
 vec3 fetchColor(ivec2 pixel) { return texelFetch(colorImage, pixel, 0).rgb; }
 bool fetchTraced(ivec2 pixel) { return texelFetch(traceMaskImage, pixel, 0).r > 0.5; }
 vec2 loadPyramidCell(int index) { return pyramidCells[index]; }
+vec4 loadSurfaceCell(int index) { return surfaceCells[index]; }
 void storeOutputValue(int index, vec4 value) { outputValues[index] = value; }
 void storeRecordValue(int index, vec4 value) { recordValues[index] = value; }
 vec3 fetchProbeAtlas(ivec2 texel) { return texelFetch(probeAtlasImage, texel, 0).rgb; }

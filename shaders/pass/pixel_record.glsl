@@ -7,6 +7,7 @@
 #include "crossray/core/view.glsl"
 #include "crossray/project/hiz.glsl"
 #include "crossray/project/linear.glsl"
+#include "crossray/project/patch_tracer.glsl"
 #include "crossray/project/proxy.glsl"
 #include "crossray/project/screen_ray.glsl"
 #include "pass/record_layout.glsl"
@@ -48,6 +49,14 @@ void recordLinearStep(LinearStep step)
     recordStep(RecordedStep(step.iteration, 0, ivec2(floor(step.positionSS)), ivec2(1, 1), step.positionSS,
                             step.rayLinearDepth, step.surfaceLinearDepth, step.surfaceLinearDepth,
                             step.surfaceLinearDepth + params.linearTracing.y, step.intersectionKind));
+}
+
+// A plane is not thick: where the ray is behind its nearest bound it is behind it.
+void recordPatchStep(PatchStep step)
+{
+    recordStep(RecordedStep(step.iteration, step.level, step.cell, step.rect.end - step.rect.begin, step.positionSS,
+                            step.rayLinearDepth, step.nearLinearDepth, step.farLinearDepth, step.nearLinearDepth,
+                            step.intersectionKind));
 }
 
 void recordProxyHit(ProxyHit hit)

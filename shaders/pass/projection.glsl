@@ -1,11 +1,12 @@
 // What a pixel's ray meets: a proxy's surface or, in screen space, a surface that the depth buffer shows. kProjectionModel has the
-// tracing models of crossray/shared/outputs.glsl. Hooks: fetchDeviceDepth, loadPyramidCell, and the block params.
+// tracing models of crossray/shared/outputs.glsl. Hooks: fetchDeviceDepth, loadPyramidCell, loadSurfaceCell, and the block params.
 #ifndef PASS_PROJECTION_GLSL
 #define PASS_PROJECTION_GLSL
 
 #include "crossray/core/view.glsl"
 #include "crossray/project/hiz.glsl"
 #include "crossray/project/linear.glsl"
+#include "crossray/project/patch_tracer.glsl"
 #include "crossray/project/proxy.glsl"
 #include "crossray/refract/refraction.glsl"
 #include "crossray/shared/outputs.glsl"
@@ -27,6 +28,15 @@ float fetchLinearDepth(ivec2 pixel)
     View view = loadView();
     float deviceDepth = fetchDeviceDepth(pixel);
     return choose(isClearedDepth(view, deviceDepth), kNoSurfaceDepth, linearDepthFromDevice(view, deviceDepth));
+}
+
+// And for the pyramid of planes, which has the same levels.
+int surfacePyramidLevelCount() { return params.hizLimits.w; }
+ivec2 surfacePyramidSize(int level) { return depthPyramidSize(level); }
+vec4 fetchSurfaceCell(ivec2 cell, int level)
+{
+    ivec4 layoutOfLevel = params.pyramidLevels[level];
+    return loadSurfaceCell(layoutOfLevel.x + cell.y * layoutOfLevel.y + cell.x);
 }
 
 // What a pixel knows in the end; each debug mode shows a part of it.
@@ -88,6 +98,16 @@ PixelAnswer answerByLinear(View view, RefractionExit ray)
                        result.intersectionKind, result.hitClass == kHitClassHit ? 1.0 : 0.0);
 }
 
+PixelAnswer answerByPatches(View view, RefractionExit ray)
+{
+    PatchTracerSettings settings =
+        PatchTracerSettings(params.hizLimits.y, params.hizLimits.z, params.patches.x, params.patches.y);
+    PatchTraceResult result = tracePatches(view, ray.positionWS, ray.dirWS, settings);
+    return PixelAnswer(result.hitClass, result.reason, ray.positionWS, ray.dirWS, ray.pathLength, result.positionSS,
+                       result.hitClass == kHitClassHit ? result.linearDepth : 0.0, result.iterations,
+                       result.maxUsedLevel, result.intersectionKind, result.confidence);
+}
+
 // What the ray of a pixel meets, by the variant's model. `positionSS` is the pixel's own, where a ray that is not cast ends.
 PixelAnswer projectRay(View view, RefractionExit ray, vec2 positionSS)
 {
@@ -97,6 +117,7 @@ PixelAnswer projectRay(View view, RefractionExit ray, vec2 positionSS)
     }
     if (kProjectionModel == kTracingModelHiz) return answerByHiz(view, ray);
     if (kProjectionModel == kTracingModelLinear) return answerByLinear(view, ray);
+    if (kProjectionModel == kTracingModelPatches) return answerByPatches(view, ray);
     if (kProjectionModel != kTracingModelNone) return answerByProxy(view, ray);
     // Only the ray is asked for: nothing is cast, so nothing is hit or missed.
     return PixelAnswer(kHitClassNoRaycast, kHitReasonNone, ray.positionWS, ray.dirWS, ray.pathLength, positionSS,

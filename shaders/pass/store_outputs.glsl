@@ -47,6 +47,9 @@ void storeAnswer(View view, ivec2 pixel, PixelAnswer answer, ScreenColor screen,
     if (wantsOutput(kOutputPathLength)) {
         storeOutput(kOutputPathLength, pixel, vec4(answer.pathLength, 0.0, 0.0, 0.0));
     }
+    if (wantsOutput(kOutputConfidence)) {
+        storeOutput(kOutputConfidence, pixel, vec4(answer.confidence, 0.0, 0.0, 0.0));
+    }
     if (wantsOutput(kOutputRayOriginWS)) storeOutput(kOutputRayOriginWS, pixel, vec4(answer.rayOriginWS, 0.0));
     if (wantsOutput(kOutputTierWeights)) storeOutput(kOutputTierWeights, pixel, tiers.tierWeights);
     if (wantsOutput(kOutputProbeWeights)) storeOutput(kOutputProbeWeights, pixel, tiers.probeWeights);

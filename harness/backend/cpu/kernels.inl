@@ -16,6 +16,7 @@ thread_local CpuBindings<Real> bound;
 thread_local PassParams params;
 thread_local PyramidParams pyramidParams;
 thread_local ProbeParams probeParams;
+thread_local SurfaceParams surfaceParams;
 
 #define CROSSRAY_VARIANT(id, name, value) thread_local int name = value;
 #include "bindings/variants.glsl"
@@ -74,7 +75,18 @@ void storeVector(uint32_t binding, int index, vec4 value)
 void storeOutputValue(int index, vec4 value) { storeVector(kOutputBinding, index, value); }
 void storeRecordValue(int index, vec4 value) { storeVector(kRecordBinding, index, value); }
 
+vec4 loadSurfaceCell(int index)
+{
+    const CpuResource<Real>& cells = bound.resources[kSurfaceBinding];
+    const auto first = static_cast<size_t>(index) * 4;
+    if (index < 0 || first + 4 > cells.scalarCount) return vec4(0.0, 0.0, 0.0, 0.0);
+    return vec4(cells.values[first], cells.values[first + 1], cells.values[first + 2], cells.values[first + 3]);
+}
+
+void storeSurfaceCell(int index, vec4 value) { storeVector(kSurfaceBinding, index, value); }
+
 #include "pass/depth_pyramid.glsl"
+#include "pass/surface_pyramid.glsl"
 #include "pass/screen_trace.glsl"
 
 template <class Params>
@@ -91,6 +103,12 @@ constexpr CpuKernel<Real> kKernels[] = {
          readUniform(pyramidParams, kParamsBinding);
      },
      [](int x, int y) { buildPyramidCell(ivec2(x, y)); }},
+    {"entry/surface_pyramid.comp", 8, 8,
+     [](const CpuBindings<Real>& bindings) {
+         bound = bindings;
+         readUniform(surfaceParams, kParamsBinding);
+     },
+     [](int x, int y) { buildSurfaceCell(ivec2(x, y)); }},
     {"entry/screen_trace.comp", 8, 8,
      [](const CpuBindings<Real>& bindings) {
          bound = bindings;

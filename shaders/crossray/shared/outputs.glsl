@@ -24,7 +24,8 @@ const int kOutputTierWeights = 16;
 const int kOutputProbeWeights = 17;
 const int kOutputProbeDirWS = 18;
 const int kOutputProbeMipLevel = 19;
-const int kOutputCount = 20;
+const int kOutputConfidence = 20;
+const int kOutputCount = 21;
 
 // Hit classes: the values of HitSuccess.
 const int kHitClassNoRaycast = 0;
@@ -53,6 +54,7 @@ const int kTracingModelProxyBox = 2;
 const int kTracingModelProxySphere = 3;
 const int kTracingModelHiz = 4;
 const int kTracingModelLinear = 5;
+const int kTracingModelPatches = 6;
 
 // Intersection kinds: the values of IntersectionKind.
 const int kIntersectionNone = 0;  // the ray crossed the cell without meeting anything

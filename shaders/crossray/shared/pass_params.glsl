@@ -19,6 +19,7 @@ struct PassParams {
     vec4 linearTracing;     // stride in pixels, depth bias in metres, unused, unused
     ivec4 hizLimits;        // min level, max level, max iterations, levels in the pyramid
     ivec4 linearLimits;     // steps, max iterations, bisections, unused
+    vec4 patches;           // caution, error of affine depth, unused, unused
     ivec4 record;           // pixel (x, y) that is recorded, steps that its record holds, unused
     ivec4 pyramidLevels[CROSSRAY_MAX_PYRAMID_LEVELS]; // first cell's index, width, height, unused
 };
@@ -28,6 +29,16 @@ struct PyramidParams {
     vec4 depthTerms;   // as in PassParams
     ivec4 sourceLevel; // first cell's index, width, height, level number; unused for target level 0
     ivec4 targetLevel; // first cell's index, width, height, level number; level 0 reads the depth buffer
+};
+
+// Parameters of one reduction of the pyramid of planes.
+struct SurfaceParams {
+    mat4 viewFromWorld;
+    vec4 imageSizeAndSlope; // as in PassParams
+    vec4 depthTerms;
+    vec4 patches;
+    ivec4 sourceLevel; // as in PyramidParams
+    ivec4 targetLevel;
 };
 
 #endif

@@ -40,8 +40,9 @@ Case makeFloorCase(ProjectionModel model)
     testCase.projection.model = model;
     testCase.projection.hiz = {0, 6, 256, 0.25};
     testCase.projection.proxy.halfExtents = {6, 6, 6};
-    for (const char* name : {"RayDirWS", "RayOriginWS", "HitSuccess", "HitReason", "HitDepth", "TracingModel",
-                             "IterationCount", "MaxUsedMipLevel", "IntersectionKind", "HitWeight", "SampledColor"})
+    for (const char* name :
+         {"RayDirWS", "RayOriginWS", "HitSuccess", "HitReason", "HitDepth", "TracingModel", "IterationCount",
+          "MaxUsedMipLevel", "IntersectionKind", "HitWeight", "SampledColor", "Confidence"})
         testCase.outputs.push_back(*findOutput(name));
     return testCase;
 }
@@ -79,6 +80,7 @@ void expectAgreement(const PixelRecord& record, const std::map<std::string, Plan
     EXPECT_EQ(record.maxUsedLevel, planes.at("MaxUsedMipLevel").at(x, y));
     EXPECT_EQ(static_cast<double>(record.lastKind), planes.at("IntersectionKind").at(x, y));
     EXPECT_EQ(record.hitWeight, planes.at("HitWeight").at(x, y));
+    EXPECT_EQ(record.confidence, planes.at("Confidence").at(x, y));
 }
 
 fs::path copyShaders()
@@ -111,7 +113,8 @@ size_t countTraceInstructions(const CaseData& data, const fs::path& shaders, boo
 
 TEST(PixelRecord, saysWhatThePlanesSay)
 {
-    for (const ProjectionModel model : {ProjectionModel::kHiz, ProjectionModel::kProxyBox, ProjectionModel::kNone}) {
+    for (const ProjectionModel model :
+         {ProjectionModel::kHiz, ProjectionModel::kPatches, ProjectionModel::kProxyBox, ProjectionModel::kNone}) {
         const CaseData data(makeFloorCase(model));
         for (const Precision precision : {Precision::kFloat, Precision::kDouble}) {
             const auto planes = runPlanes(data, precision);
@@ -223,7 +226,7 @@ TEST(PixelRecord, aReleaseHasNothingOfIt)
     replaceIn(copy / "pass/pixel_record.glsl", "\\{\n    recordStep[^;]*;\n\\}", "{\n}");
     replaceIn(copy / "pass/screen_trace.glsl", "\n[^\n]*kRecordPixel == 1 && [^\n]*return;", "");
     replaceIn(copy / "pass/screen_trace.glsl", "kRecordPixel == 1 \\? [^:]*: invocation", "invocation");
-    for (const ProjectionModel model : {ProjectionModel::kHiz, ProjectionModel::kProxyBox}) {
+    for (const ProjectionModel model : {ProjectionModel::kHiz, ProjectionModel::kPatches, ProjectionModel::kProxyBox}) {
         const CaseData data(prepareForRecord(makeFloorCase(model)));
         const size_t release = countTraceInstructions(data, kShaders, false);
         EXPECT_EQ(release, countTraceInstructions(data, copy, false));
