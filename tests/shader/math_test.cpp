@@ -119,6 +119,7 @@ TEST(ShaderOutputs, AgreeWithTheHarness)
         {kOutputProbeWeights, "ProbeWeights"},
         {kOutputProbeDirWS, "ProbeDirWS"},
         {kOutputProbeMipLevel, "ProbeMipLevel"},
+        {kOutputConfidence, "Confidence"},
     };
     EXPECT_EQ(static_cast<size_t>(kOutputCount), ids.size());
     ASSERT_EQ(crossray::allOutputs().size(), ids.size());
