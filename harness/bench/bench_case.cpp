@@ -215,6 +215,8 @@ BenchScene benchCase(const Case& testCase, const BenchOptions& options, WorkerPo
     BenchScene scene;
     scene.name = testCase.name;
     scene.effect = isReflection ? "reflection" : "refraction";
+    scene.needs = testCase.needs;
+    scene.budget = testCase.budget;
     scene.width = testCase.camera.width;
     scene.height = testCase.camera.height;
     Case plain = testCase;

@@ -157,6 +157,8 @@ struct Case {
     std::vector<KnownFailure> knownFailures;
     bool mustFail = false; // passes when the judge fails it on every backend: proof of the ruler
     double timeoutSeconds = 20;
+    std::string needs;  // kind of method that its scene needs to keep `budget`, for the bench; empty: no claim
+    std::string budget; // "HitDepth<=0.01"
 };
 
 // Reads one file and expands its parameter lists. Throws InputError with file:line:column and what is allowed.

@@ -158,6 +158,14 @@ void buildTop(const TableReader& top, Case& testCase)
     testCase.backends = top.texts("backends");
     testCase.timeoutSeconds = top.number("timeout");
     testCase.mustFail = top.boolean("must_fail");
+    if (top.has("needs") != top.has("budget")) {
+        throw InputError(top.position(top.has("needs") ? "needs" : "budget"),
+                         "\"needs\" and \"budget\" stand together; both or neither are allowed");
+    }
+    if (top.has("needs")) {
+        testCase.needs = top.text("needs");
+        testCase.budget = top.text("budget");
+    }
     if (top.has("scene") == top.has("gbuffer")) {
         throw InputError(top.position(top.has("gbuffer") ? "gbuffer" : ""),
                          top.has("gbuffer") ? "[scene] and [gbuffer] are both given; exactly one of them is allowed"

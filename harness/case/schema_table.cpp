@@ -47,6 +47,14 @@ std::vector<KeySpec> topKeys()
         Key("", "must_fail", kBoolean)
             .byDefault("false")
             .says("Passes when the judge fails the case on every backend."),
+        Key("", "needs", kChoice)
+            .oneOf({"proxy", "linear", "hiz", "patches", "none", "thin", "box", "sphere"})
+            .withoutIt("no claim")
+            .says("The cheapest kind of method that keeps budget; `crossray bench` fails the case when another does."),
+        Key("", "budget", kString)
+            .allowed("ERROR<=NUMBER, several by commas")
+            .withoutIt("none; required beside needs")
+            .says("Bounds on the errors that `crossray bench` measures."),
         Key("", "camera", kTable).withoutIt("all defaults").says("The camera of an analytic scene."),
         Key("", "scene", kTable).withoutIt("none; this or gbuffer is required").says("An analytic scene."),
         Key("", "gbuffer", kTable).withoutIt("none; this or scene is required").says("A G-buffer of another renderer."),
