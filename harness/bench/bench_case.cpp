@@ -186,6 +186,11 @@ BenchTime summarize(const std::vector<double>& milliseconds, double baseline)
 // Reads of the library's tracers, counted by the same shaders on the CPU: the tracer that does what the case asks for.
 void countFetches(const YardstickScene& scene, const Projection& projection, BenchPoint& point)
 {
+    if (projection.model == ProjectionModel::kLinear) { // a fetch an iteration, and 9 at the start
+        point.counters["Fetches"] = point.counters["Iterations"] + 9;
+        point.counters["FetchesOf32"] = point.counters["IterationsOf32"] + 9;
+        return;
+    }
     const auto tracer = caseTracer(projection, scene);
     if (!tracer) {
         point.counters["Fetches"] = point.counters["FetchesOf32"] = 1; // a proxy reads the pixel's own depth

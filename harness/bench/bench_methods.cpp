@@ -9,6 +9,21 @@ namespace crossray {
 
 namespace {
 
+// A wall along an axis that is half as long as the box bounds it on the side that it faces away from.
+void clipByWalls(const Scene& scene, glm::dvec3& low, glm::dvec3& high)
+{
+    const glm::dvec3 size = high - low;
+    for (const Primitive& primitive : scene.primitives) {
+        const glm::dvec3& normal = primitive.worldFromLocal[2];
+        if (primitive.shape != PrimitiveShape::kPlane || primitive.halfExtents.x < 0.25 * std::max(size.x, size.z))
+            continue;
+        for (int axis = 0; axis < 3; ++axis) {
+            if (normal[axis] > 0.999) low[axis] = std::max(low[axis], primitive.center[axis]);
+            if (normal[axis] < -0.999) high[axis] = std::min(high[axis], primitive.center[axis]);
+        }
+    }
+}
+
 // A box around all that is finite: what an artist would draw as a proxy.
 ProxyVolume boundScene(const Scene& scene)
 {
@@ -26,6 +41,7 @@ ProxyVolume boundScene(const Scene& scene)
     }
     ProxyVolume proxy;
     if (low.x > high.x) return proxy;
+    clipByWalls(scene, low, high);
     proxy.center = 0.5 * (low + high);
     proxy.halfExtents = glm::max(0.5 * (high - low), glm::dvec3(1e-3));
     proxy.radius = std::max({proxy.halfExtents.x, proxy.halfExtents.y, proxy.halfExtents.z});
@@ -68,6 +84,20 @@ void addHiz(std::vector<BenchMethod>& methods, double thickness)
     add("HiZ, levels 0 to 6, 256 steps, half size", {0, 6, 256, thickness}, 2);
 }
 
+void addLinear(std::vector<BenchMethod>& methods, double thickness)
+{
+    for (const int stride : {1, 2, 4, 8, 16}) {
+        methods.push_back({fmt::format("linear, stride {}, 5 halvings", stride), "linear", [=](Case& varied) {
+                               varied.projection.model = ProjectionModel::kLinear;
+                               varied.projection.linear = LinearSettings{.stride = static_cast<double>(stride),
+                                                                         .steps = 0,
+                                                                         .maxIterations = 2048,
+                                                                         .depthBias = thickness,
+                                                                         .bisections = 5};
+                           }});
+    }
+}
+
 } // namespace
 
 std::vector<BenchMethod> makeBenchMethods(const Case& testCase)
@@ -85,6 +115,7 @@ std::vector<BenchMethod> makeBenchMethods(const Case& testCase)
         return methods;
     }
     addProxies(testCase, methods);
+    addLinear(methods, testCase.projection.hiz.depthBias);
     addHiz(methods, testCase.projection.hiz.depthBias);
     return methods;
 }

@@ -163,28 +163,36 @@ double planeDepth(const DepthImage& image, int x, int y, const glm::dvec2& posit
     return image.frame().linearDepth(look.originWS + distance * look.dirWS);
 }
 
-// Knows where the ray ends. Claims a hit where that place is one of the planes of the four pixels around it: what the
+// Knows where the ray ends. Claims a hit where that place is one of the planes of the four pixels around it, or lies
+// between their depths where these belong together (so that normals that are bent or missing do not blind it): what the
 // depth buffer alone could answer.
 TracerAnswer askOracle(const DepthImage& image, const YardstickRay& ray)
 {
     if (ray.truth != RayTruth::kAnswerable) return makeNoHit(1, 1);
     const int left = static_cast<int>(std::floor(ray.hitPositionSS.x - 0.5));
     const int top = static_cast<int>(std::floor(ray.hitPositionSS.y - 0.5));
+    const double close = 1e-3 * ray.hitLinearDepth;
+    double nearest = kNoLimit, farthest = 0;
+    bool isShown = false;
     for (int i = 0; i < 4; ++i) {
         const int x = left + i % 2, y = top + i / 2;
         if (!image.contains(x, y)) continue;
+        nearest = std::min(nearest, image.depth(x, y));
+        farthest = std::max(farthest, image.depth(x, y));
         const double depth = planeDepth(image, x, y, ray.hitPositionSS);
         const double curvature = 0.25 * std::abs(depth - image.depth(x, y));
-        if (std::abs(depth - ray.hitLinearDepth) > 1e-3 * ray.hitLinearDepth + curvature) continue;
-        TracerAnswer answer;
-        answer.isHit = true;
-        answer.positionSS = ray.hitPositionSS;
-        answer.linearDepth = depth;
-        answer.fetches = 1;
-        answer.iterations = 1;
-        return answer;
+        isShown = isShown || std::abs(depth - ray.hitLinearDepth) <= close + curvature;
     }
-    return makeNoHit(1, 1);
+    const bool belong = farthest - nearest <= 0.05 * nearest;
+    const bool isBetween = ray.hitLinearDepth >= nearest - close && ray.hitLinearDepth <= farthest + close;
+    if (!isShown && !(belong && isBetween)) return makeNoHit(1, 1);
+    TracerAnswer answer;
+    answer.isHit = true;
+    answer.positionSS = ray.hitPositionSS;
+    answer.linearDepth = ray.hitLinearDepth;
+    answer.fetches = 1;
+    answer.iterations = 1;
+    return answer;
 }
 
 template <class Trace>

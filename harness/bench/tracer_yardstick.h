@@ -48,6 +48,9 @@ enum class Disturbance {
     kDepth24,       // 24-bit fixed point
     kDepth16,       // 16-bit fixed point
     kNoise,         // linear depth off by up to 0.1 %, evenly
+    kStandard32,    // standard instead of reversed depth, as 32-bit float
+    kStandard24,    // 24-bit fixed point
+    kStandard16,    // 16-bit fixed point
 };
 std::span<const Disturbance> allDisturbances();
 std::string_view nameOf(Disturbance disturbance);

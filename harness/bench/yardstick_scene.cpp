@@ -13,8 +13,9 @@ namespace {
 
 constexpr double kSelfHit = 1e-6; // metres by which a ray leaves its own surface
 constexpr double kNoiseShare = 1e-3;
-constexpr std::array<std::string_view, 7> kDisturbances{"none",    "normal_map", "smooth_normals", "no_normals",
-                                                        "depth24", "depth16",    "noise"};
+constexpr std::array<std::string_view, 10> kDisturbances{"none",       "normal_map", "smooth_normals", "no_normals",
+                                                         "depth24",    "depth16",    "noise",          "standard32",
+                                                         "standard24", "standard16"};
 
 uint64_t nextSerial()
 {
@@ -89,10 +90,36 @@ double affineDepthPerDeviceDepth(const Camera& camera)
     return affine / std::abs(computeDeviceDepth(camera, first) - computeDeviceDepth(camera, second));
 }
 
+bool isStandard(Disturbance disturbance)
+{
+    return disturbance == Disturbance::kStandard32 || disturbance == Disturbance::kStandard24 ||
+           disturbance == Disturbance::kStandard16;
+}
+
+// The same depths in the standard convention.
+void makeStandard(GBuffer& gbuffer)
+{
+    const Camera before = gbuffer.camera;
+    gbuffer.camera.depthConvention = DepthConvention::kStandard;
+    for (double& depth : gbuffer.planes.at(GBufferChannel::kDeviceDepth).values) {
+        depth = depth == clearedDeviceDepth(before)
+                    ? clearedDeviceDepth(gbuffer.camera)
+                    : computeDeviceDepth(gbuffer.camera, computeLinearDepth(before, depth));
+    }
+}
+
+// Largest distance between two neighbouring numbers in [0.5, 1], where a standard depth's far half lies.
+constexpr double kFloatStep = 0x1p-24;
+
 void disturbDepths(Disturbance disturbance, YardstickScene& scene)
 {
+    if (isStandard(disturbance)) makeStandard(scene.gbuffer);
     const Camera& camera = scene.gbuffer.camera;
     std::vector<double>& depths = scene.gbuffer.planes.at(GBufferChannel::kDeviceDepth).values;
+    if (disturbance == Disturbance::kStandard32) { // it is rounded to float where it is uploaded
+        scene.depthError = 0.5 * kFloatStep * affineDepthPerDeviceDepth(camera);
+        return;
+    }
     if (disturbance == Disturbance::kNoise) {
         RandomStream random(scene.seed ^ 0x6e6f697365ULL);
         const double cleared = clearedDeviceDepth(camera);
@@ -109,7 +136,8 @@ void disturbDepths(Disturbance disturbance, YardstickScene& scene)
         scene.depthError = surfaces > 0 ? kNoiseShare * sum / surfaces : 0;
         return;
     }
-    const double steps = disturbance == Disturbance::kDepth16 ? 65535.0 : 16777215.0;
+    const bool isShort = disturbance == Disturbance::kDepth16 || disturbance == Disturbance::kStandard16;
+    const double steps = isShort ? 65535.0 : 16777215.0;
     for (double& depth : depths)
         depth = std::round(depth * steps) / steps;
     scene.depthError = 0.5 / steps * affineDepthPerDeviceDepth(camera);
@@ -135,9 +163,10 @@ RayTruth truthOf(ScreenKnowledge knowledge)
 
 std::span<const Disturbance> allDisturbances()
 {
-    static constexpr std::array kAll{Disturbance::kNone,      Disturbance::kNormalMap, Disturbance::kSmoothNormals,
-                                     Disturbance::kNoNormals, Disturbance::kDepth24,   Disturbance::kDepth16,
-                                     Disturbance::kNoise};
+    static constexpr std::array kAll{Disturbance::kNone,      Disturbance::kNormalMap,  Disturbance::kSmoothNormals,
+                                     Disturbance::kNoNormals, Disturbance::kDepth24,    Disturbance::kDepth16,
+                                     Disturbance::kNoise,     Disturbance::kStandard32, Disturbance::kStandard24,
+                                     Disturbance::kStandard16};
     return kAll;
 }
 

@@ -259,7 +259,8 @@ void addTracers(CLI::App& bench, CommandLine& line)
         ->type_name("NAME");
     verb.add_option(
             "--disturb", options.disturbance,
-            "What is done to the G-buffer: none, normal_map, smooth_normals, no_normals, depth24, depth16 or noise")
+            "What is done to the G-buffer: none, normal_map, smooth_normals, no_normals, depth24, depth16, noise, "
+            "standard32, standard24 or standard16")
         ->type_name("NAME");
     verb.add_option("--case", options.testCase, "A case's scene instead")->type_name("CASE");
     verb.add_option("-k", options.filter, "Only tracers with this in their name")->type_name("TEXT");
