@@ -29,12 +29,13 @@ TEST_F(BadInput, unknownKeysAreAnsweredWithTheNearestName)
     EXPECT_EQ(
         refusal(withScene("sky = { zenit = [0, 0, 0] }\n")),
         "a.toml:10:9: unknown key \"zenit\" in [scene.sky]; did you mean \"zenith\"? Allowed: zenith, horizon, nadir");
-    EXPECT_EQ(refusal(withScene("[materials]\n")), "a.toml:10:2: unknown key \"materials\" at the top level; did you "
-                                                   "mean \"material\"? Allowed: schema, name, summary, "
-                                                   "tags, use, trace, outputs, backends, timeout, must_fail, camera, "
-                                                   "scene, gbuffer, material, projection, hierarchy, probe, "
-                                                   "probe_profile, profile, dominant_direction, sky, expect, "
-                                                   "expand, known_failure");
+    EXPECT_EQ(refusal(withScene("[materials]\n")),
+              "a.toml:10:2: unknown key \"materials\" at the top level; did you "
+              "mean \"material\"? Allowed: schema, name, summary, "
+              "tags, use, trace, outputs, backends, timeout, must_fail, needs, budget, camera, "
+              "scene, gbuffer, material, projection, hierarchy, probe, "
+              "probe_profile, profile, dominant_direction, sky, expect, "
+              "expand, known_failure");
 }
 
 TEST_F(BadInput, wrongTypesSayWhatIsAllowed)
