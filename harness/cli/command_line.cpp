@@ -149,6 +149,10 @@ void addInspection(CLI::App& app, CommandLine& line)
     show.add_option("--backend", line.show.backends, "As for run")->type_name("NAME,...")->delimiter(',')->expected(1);
     show.add_option("--image", line.show.image, "Run the case and draw its debug modes, on the first backend named")
         ->type_name("FILE.png");
+    show.add_option("--panels", line.show.panels, "Of the picture, by name; default: all")
+        ->type_name("NAME,...")
+        ->delimiter(',')
+        ->expected(1);
     show.callback([&line] { line.verb = [&line] { return showCase(line.global, line.show); }; });
 
     CLI::App& trace = *app.add_subcommand("trace", "Show all that the ray of one pixel does");

@@ -134,14 +134,56 @@ void writePicture(const std::filesystem::path& file, std::span<const Panel> pane
     std::filesystem::rename(aside, file);
 }
 
+namespace {
+
+// What the camera shows: the scene, and on the pixels that trace what their rays found.
+Panel drawFrame(const CaseData& data, const Plane& color)
+{
+    Plane frame = data.gbuffer().plane(GBufferChannel::kColor);
+    frame.name = "Color";
+    for (size_t pixel = 0; pixel < frame.pixelCount(); ++pixel) {
+        if (!data.tracedPixels()[pixel]) continue;
+        for (size_t channel = 0; channel < 3; ++channel)
+            frame.values[pixel * static_cast<size_t>(frame.channels) + channel] = color.values[pixel * 3 + channel];
+    }
+    Panel panel = encodePanel(frame);
+    panel.name = "frame";
+    return panel;
+}
+
+// Those panels that are named, in the order of the names; all where none is. Throws InputError.
+std::vector<Panel> choosePanels(std::vector<Panel> panels, std::span<const std::string> names)
+{
+    if (names.empty()) return panels;
+    std::vector<Panel> chosen;
+    for (const std::string& name : names) {
+        const auto found =
+            std::find_if(panels.begin(), panels.end(), [&](const Panel& panel) { return panel.name == name; });
+        if (found == panels.end()) {
+            std::string allowed;
+            for (const Panel& panel : panels)
+                allowed += (allowed.empty() ? "" : ", ") + panel.name;
+            throw InputError(fmt::format("no panel \"{}\" in the picture of this case, allowed are {}", name, allowed));
+        }
+        chosen.push_back(*found);
+    }
+    return chosen;
+}
+
+} // namespace
+
 std::vector<std::string> drawCase(const Case& testCase, const std::string& backend, const Folders& folders,
-                                  const std::filesystem::path& file)
+                                  const std::filesystem::path& file, std::span<const std::string> names)
 {
     Case drawn = testCase;
     drawn.outputs.clear();
     const bool casts = drawn.projection.model != ProjectionModel::kNone;
-    for (const char* name : {"RayDirWS", "HitSuccess", "HitDepth", "SampledColor", "HitWeight"}) {
-        if (casts || name == std::string_view("RayDirWS")) drawn.outputs.push_back(*findOutput(name));
+    const bool lights = drawn.hierarchy != 0;
+    for (const char* name :
+         {"Color", "RayDirWS", "HitSuccess", "HitDepth", "SampledColor", "HitWeight", "TierWeights"}) {
+        const std::string_view output = name;
+        const bool ofHierarchy = output == "Color" || output == "TierWeights";
+        if (output == "RayDirWS" || (ofHierarchy ? lights : casts)) drawn.outputs.push_back(*findOutput(name));
     }
 
     WorkerOptions options;
@@ -163,14 +205,18 @@ std::vector<std::string> drawCase(const Case& testCase, const std::string& backe
     }
     for (const Plane& plane : steps.readPlanes(prepared.data->testCase(), report.result)) {
         panels.push_back(encodePanel(plane));
+        if (plane.name != "Color") continue;
+        const Panel frame = drawFrame(*prepared.data, plane);
+        panels.insert(panels.begin(), frame);
     }
+    panels = choosePanels(std::move(panels), names);
     constexpr int kColumns = 3;
     constexpr int kPanelWidth = 320;
     writePicture(file, panels, kColumns, kPanelWidth);
-    std::vector<std::string> names;
+    std::vector<std::string> drawnNames;
     for (const Panel& panel : panels)
-        names.push_back(panel.name);
-    return names;
+        drawnNames.push_back(panel.name);
+    return drawnNames;
 }
 
 } // namespace crossray

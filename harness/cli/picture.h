@@ -25,9 +25,10 @@ Panel encodePanel(const Plane& plane);
 // Panels in a grid of `columns`, each blown up by the same whole factor to at least `panelWidth` pixels.
 void writePicture(const std::filesystem::path& file, std::span<const Panel> panels, int columns, int panelWidth);
 
-// Runs the case on one backend and draws the scene and its outputs. Returns the panels' names in order. Throws
-// EnvironmentError, ShaderError, InputError.
+// Runs the case on one backend and draws the scene and its outputs, before them, for a case with a hierarchy, the
+// frame: the scene with what the rays found on the pixels that trace. `names` picks panels; empty: all. Returns the
+// panels' names in order. Throws EnvironmentError, ShaderError, InputError.
 std::vector<std::string> drawCase(const Case& testCase, const std::string& backend, const Folders& folders,
-                                  const std::filesystem::path& file);
+                                  const std::filesystem::path& file, std::span<const std::string> names);
 
 } // namespace crossray

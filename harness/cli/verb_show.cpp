@@ -236,7 +236,8 @@ int showCase(const GlobalOptions& global, const ShowOptions& options)
     }
     if (!options.image.empty()) {
         const std::string backend = options.backends.empty() ? "lavapipe" : options.backends.front();
-        const std::vector<std::string> panels = drawCase(selected.cases.front(), backend, folders, options.image);
+        const std::vector<std::string> panels =
+            drawCase(selected.cases.front(), backend, folders, options.image, options.panels);
         fmt::print("image      {}: {} ({})\n", options.image, fmt::join(panels, ", "), backend);
     }
     return static_cast<int>(ExitCode::kAsExpected);

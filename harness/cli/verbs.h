@@ -56,6 +56,7 @@ struct ShowOptions {
     std::string testCase;
     std::vector<std::string> backends;
     std::string image; // a PNG of what the first of the cases computes; empty: none
+    std::vector<std::string> panels; // of that picture; empty: all
 };
 int showCase(const GlobalOptions& global, const ShowOptions& options);
 
