@@ -11,7 +11,10 @@ namespace {
 
 class CubeCapture {
   public:
-    CubeCapture(const Scene& scene, const CaptureSettings& settings) : scene_(scene), settings_(settings) {}
+    CubeCapture(const Scene& scene, const CaptureSettings& settings) : scene_(scene), settings_(settings)
+    {
+        std::erase_if(scene_.primitives, [](const Primitive& primitive) { return primitive.material == "glass"; });
+    }
 
     // `last`: what mirrors show; null: nothing.
     Cubemap capture(const Cubemap* last) const
@@ -50,7 +53,7 @@ class CubeCapture {
         return glm::length(towards) > 0.0 ? towards : dirWS;
     }
 
-    const Scene& scene_;
+    Scene scene_; // what is opaque
     const CaptureSettings& settings_;
 };
 

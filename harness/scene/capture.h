@@ -1,5 +1,6 @@
 // Captures: what an analytic scene looks like from a probe's position, all around as a cubemap. Unlit radiance and sky
-// by the double-precision ray caster, one ray through the centre of each texel. Shares no code with the shaders.
+// by the double-precision ray caster, one ray through the centre of each texel. Glass is left out: a capture shows what is
+// opaque, so that a refracting object can stand around its own probe. Shares no code with the shaders.
 #pragma once
 
 #include "harness/scene/cubemap.h"

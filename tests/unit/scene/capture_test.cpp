@@ -196,6 +196,21 @@ TEST(Capture, WithoutAProxyOnlyTheDirectionCounts)
     });
 }
 
+TEST(Capture, GlassIsLeftOut)
+{
+    Scene scene;
+    Primitive sphere;
+    sphere.shape = PrimitiveShape::kSphere;
+    sphere.radius = 2;
+    sphere.material = "glass";
+    scene.primitives = {sphere};
+    CaptureSettings settings;
+    settings.size = 4;
+    forEachTexel(captureCubemap(scene, settings), [&](int face, int x, int y, const glm::dvec3& dir) {
+        EXPECT_EQ(captureCubemap(scene, settings).at(0, face, x, y), computeSkyRadiance(scene, dir));
+    });
+}
+
 TEST(Capture, WhatIsNotAllowedIsRefused)
 {
     const auto refuse = [](const std::function<void(CaptureSettings&)>& change) {
