@@ -23,5 +23,5 @@ crossray_module(cli USES bench inspect PACKAGES CLI11::CLI11 PNG::PNG)
 set_source_files_properties(harness/cli/command_line.cpp PROPERTIES COMPILE_OPTIONS "-O0")
 
 # The GLSL library in float: 0.5 is a float there, as in GLSL.
-file(GLOB float_shader_units CONFIGURE_DEPENDS harness/backend/cpu/*32.cpp harness/bench/*32.cpp)
+file(GLOB float_shader_units CONFIGURE_DEPENDS harness/backend/cpu/*32.cpp harness/bench/*32.cpp harness/inspect/*32.cpp)
 set_source_files_properties(${float_shader_units} PROPERTIES COMPILE_OPTIONS -fsingle-precision-constant)

@@ -153,6 +153,8 @@ void addInspection(CLI::App& app, CommandLine& line)
         ->type_name("NAME,...")
         ->delimiter(',')
         ->expected(1);
+    show.add_option("--debug-mode", line.show.debugMode, "With --image: this debug mode alone, in its display encoding")
+        ->type_name("NAME");
     show.callback([&line] { line.verb = [&line] { return showCase(line.global, line.show); }; });
 
     CLI::App& trace = *app.add_subcommand("trace", "Show all that the ray of one pixel does");

@@ -170,6 +170,30 @@ std::vector<Panel> choosePanels(std::vector<Panel> panels, std::span<const std::
     return chosen;
 }
 
+constexpr int kPanelWidth = 320;
+
+// What one backend answers, and the data that it was asked with.
+struct DrawnAnswer {
+    std::shared_ptr<const CaseData> data;
+    std::vector<Plane> planes;
+};
+
+DrawnAnswer askBackend(const Case& drawn, const std::string& backend, const Folders& folders)
+{
+    WorkerOptions options;
+    options.mesaCacheFolder = folders.cache / "mesa";
+    WorkerPool pool(options);
+    ShaderCompiler compiler(folders.cache / "spirv");
+    const std::string backends[] = {backend};
+    const ExecuteSteps steps = makeSteps(pool, compiler, folders.shaders, backends);
+    const bool doubles = usesDoubles(backend);
+    const PreparedCase prepared = steps.prepare(drawn, !doubles, doubles);
+    const JobReport report = steps.run(backend, 0, doubles ? *prepared.doubleJob : *prepared.floatJob,
+                                       std::chrono::duration<double>(drawn.timeoutSeconds));
+    if (report.outcome != JobOutcome::kDone) throw EnvironmentError(fmt::format("{}: {}", backend, report.text));
+    return {prepared.data, steps.readPlanes(prepared.data->testCase(), report.result)};
+}
+
 } // namespace
 
 std::vector<std::string> drawCase(const Case& testCase, const std::string& backend, const Folders& folders,
@@ -186,37 +210,51 @@ std::vector<std::string> drawCase(const Case& testCase, const std::string& backe
         if (output == "RayDirWS" || (ofHierarchy ? lights : casts)) drawn.outputs.push_back(*findOutput(name));
     }
 
-    WorkerOptions options;
-    options.mesaCacheFolder = folders.cache / "mesa";
-    WorkerPool pool(options);
-    ShaderCompiler compiler(folders.cache / "spirv");
-    const std::string backends[] = {backend};
-    const ExecuteSteps steps = makeSteps(pool, compiler, folders.shaders, backends);
-    const bool doubles = usesDoubles(backend);
-    const PreparedCase prepared = steps.prepare(drawn, !doubles, doubles);
-    const JobReport report = steps.run(backend, 0, doubles ? *prepared.doubleJob : *prepared.floatJob,
-                                       std::chrono::duration<double>(drawn.timeoutSeconds));
-    if (report.outcome != JobOutcome::kDone) throw EnvironmentError(fmt::format("{}: {}", backend, report.text));
-
+    const DrawnAnswer answer = askBackend(drawn, backend, folders);
     std::vector<Panel> panels;
-    if (prepared.data->gbuffer().planes.contains(GBufferChannel::kColor)) {
-        panels.push_back(encodePanel(prepared.data->gbuffer().plane(GBufferChannel::kColor)));
+    if (answer.data->gbuffer().planes.contains(GBufferChannel::kColor)) {
+        panels.push_back(encodePanel(answer.data->gbuffer().plane(GBufferChannel::kColor)));
         panels.back().name = "scene";
     }
-    for (const Plane& plane : steps.readPlanes(prepared.data->testCase(), report.result)) {
+    for (const Plane& plane : answer.planes) {
         panels.push_back(encodePanel(plane));
         if (plane.name != "Color") continue;
-        const Panel frame = drawFrame(*prepared.data, plane);
+        const Panel frame = drawFrame(*answer.data, plane);
         panels.insert(panels.begin(), frame);
     }
     panels = choosePanels(std::move(panels), names);
     constexpr int kColumns = 3;
-    constexpr int kPanelWidth = 320;
     writePicture(file, panels, kColumns, kPanelWidth);
     std::vector<std::string> drawnNames;
     for (const Panel& panel : panels)
         drawnNames.push_back(panel.name);
     return drawnNames;
+}
+
+std::vector<std::string> drawDebugMode(const Case& testCase, const DebugMode& mode, const std::string& backend,
+                                       const Folders& folders, const std::filesystem::path& file)
+{
+    requireRecorded(mode, testCase);
+    Case drawn = testCase;
+    drawn.outputs = {*findOutput(mode.output.empty() ? "SampledColor" : mode.output)};
+    const DrawnAnswer answer = askBackend(drawn, backend, folders);
+    const bool isScene = mode.output.empty();
+    if (isScene && !answer.data->gbuffer().planes.contains(GBufferChannel::kColor)) {
+        throw InputError(fmt::format("{}: its G-buffer has no colour to draw", testCase.name));
+    }
+    const Plane& plane = isScene ? answer.data->gbuffer().plane(GBufferChannel::kColor) : answer.planes.front();
+    // Radiance is linear, a picture is sRGB; the other encodings are colours already.
+    const bool isRadiance = mode.encoding == Encoding::kColor;
+    Panel panel{std::string(mode.name), plane.width, plane.height, {}};
+    for (const EncodedColor& color : encodePlane(mode, plane, testCase)) {
+        for (const double value : {color.r, color.g, color.b}) {
+            const double shown = isRadiance ? encodeSrgb(value) : std::clamp(value, 0.0, 1.0);
+            panel.rgb.push_back(static_cast<unsigned char>(std::lround(shown * 255)));
+        }
+    }
+    const Panel panels[] = {panel};
+    writePicture(file, panels, 1, kPanelWidth);
+    return {panel.name};
 }
 
 } // namespace crossray

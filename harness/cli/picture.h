@@ -3,6 +3,7 @@
 
 #include "harness/base/plane.h"
 #include "harness/case/case.h"
+#include "harness/inspect/debug_mode.h"
 #include "harness/run/environment.h"
 
 #include <filesystem>
@@ -30,5 +31,10 @@ void writePicture(const std::filesystem::path& file, std::span<const Panel> pane
 // panels' names in order. Throws EnvironmentError, ShaderError, InputError.
 std::vector<std::string> drawCase(const Case& testCase, const std::string& backend, const Folders& folders,
                                   const std::filesystem::path& file, std::span<const std::string> names);
+
+// One debug mode alone, in the shader library's display encoding; None draws the scene. Throws InputError where the
+// case does not record it.
+std::vector<std::string> drawDebugMode(const Case& testCase, const DebugMode& mode, const std::string& backend,
+                                       const Folders& folders, const std::filesystem::path& file);
 
 } // namespace crossray

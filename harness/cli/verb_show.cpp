@@ -234,10 +234,16 @@ int showCase(const GlobalOptions& global, const ShowOptions& options)
         isFirst = false;
         printCase(testCase, options, style);
     }
+    if (options.image.empty() && !options.debugMode.empty()) {
+        throw InputError("--debug-mode draws a picture: it needs --image FILE.png");
+    }
     if (!options.image.empty()) {
         const std::string backend = options.backends.empty() ? "lavapipe" : options.backends.front();
+        const Case& drawn = selected.cases.front();
         const std::vector<std::string> panels =
-            drawCase(selected.cases.front(), backend, folders, options.image, options.panels);
+            options.debugMode.empty()
+                ? drawCase(drawn, backend, folders, options.image, options.panels)
+                : drawDebugMode(drawn, findDebugMode(options.debugMode), backend, folders, options.image);
         fmt::print("image      {}: {} ({})\n", options.image, fmt::join(panels, ", "), backend);
     }
     return static_cast<int>(ExitCode::kAsExpected);

@@ -55,8 +55,9 @@ int listCases(const GlobalOptions& global, const SelectionOptions& selection, bo
 struct ShowOptions {
     std::string testCase;
     std::vector<std::string> backends;
-    std::string image; // a PNG of what the first of the cases computes; empty: none
+    std::string image;               // a PNG of what the first of the cases computes; empty: none
     std::vector<std::string> panels; // of that picture; empty: all
+    std::string debugMode;           // what it shows in their place; empty: the panels
 };
 int showCase(const GlobalOptions& global, const ShowOptions& options);
 

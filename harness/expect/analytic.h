@@ -61,6 +61,10 @@ struct LinearMarch {
 LinearMarch marchOnFacingSurface(const Camera& camera, const LinearSettings& settings, const glm::dvec2& startSS,
                                  double startDepth, const glm::dvec2& hitSS, double hitDepth);
 
+// Direction of a ray on screen at its start: xy unit in NDC, z the change of 1/linear depth for a unit of way there. By the
+// quotient rule on the projection in clip space. 0 along the line of sight, and where the start is not in front.
+glm::dvec3 rayDirectionNDC(const Camera& camera, const glm::dvec3& originWS, const glm::dvec3& dirWS);
+
 // Weight in [0,1] of a hit at `uv`; domain, section 2. `distance` in the same unit.
 double screenWeightAt(const glm::dvec2& uv, double distance, ScreenWeightForm form);
 

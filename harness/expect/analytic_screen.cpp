@@ -27,6 +27,21 @@ double rampAt(double coordinate, double width, bool smooth)
 
 } // namespace
 
+glm::dvec3 rayDirectionNDC(const Camera& camera, const glm::dvec3& originWS, const glm::dvec3& dirWS)
+{
+    const glm::dmat4 clipFromWorld = computeClipFromView(camera) * computeViewFromWorld(camera);
+    const glm::dvec4 start = clipFromWorld * glm::dvec4(originWS, 1.0);
+    const glm::dvec4 change = clipFromWorld * glm::dvec4(dirWS, 0.0);
+    const glm::dvec3 forwardWS = -glm::dvec3(camera.worldFromView[2]);
+    const double depth = glm::dot(originWS - glm::dvec3(camera.worldFromView[3]), forwardWS);
+    if (!(depth > 0.0)) return glm::dvec3(0.0);
+    const glm::dvec2 rate = (glm::dvec2(change) * start.w - glm::dvec2(start) * change.w) / (start.w * start.w);
+    const double way = glm::length(rate);
+    if (!(way > 1e-6 / depth)) return glm::dvec3(0.0);
+    const double inverseDepthRate = -glm::dot(dirWS, forwardWS) / (depth * depth);
+    return {rate / way, inverseDepthRate / way};
+}
+
 double screenWeightAt(const glm::dvec2& uv, double distance, ScreenWeightForm form)
 {
     // Today's form measures 1 - |2x - 1|, twice the distance to the border, against the same number.

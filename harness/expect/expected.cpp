@@ -108,6 +108,8 @@ void storeAnswer(double* target, Output output, const PixelAnswer& answer)
     case Output::kProbeMipLevel:
         target[0] = answer.share.probeMipLevel;
         return;
+    case Output::kRayDirNDC:
+        return storeVector(target, answer.rayDirNDC);
     }
 }
 

@@ -18,6 +18,7 @@ enum class Output : int {
     kHitSuccess = 3,
     kHitReason = 4,
     kPositionNDC = 6,
+    kRayDirNDC = 7,
     kIterationCount = 8,
     kHitWeight = 11,
     kSampledColor = 12,
@@ -38,6 +39,7 @@ struct PixelAnswer {
     double hitDepth = 0;
     glm::dvec2 hitPositionSS{0.0};
     glm::dvec2 positionNDC{0.0}; // x right, y up, [-1,1] on screen
+    glm::dvec3 rayDirNDC{0.0};
     int iterations = 0;
     double hitWeight = 0;
     glm::dvec3 radiance{0.0};

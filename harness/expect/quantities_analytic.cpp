@@ -27,6 +27,14 @@ PixelAnswer answerReflection(const QuantityInput& input, size_t pixel)
     return answerRay(reflectAtSurface(surfaceOf(input, pixel)));
 }
 
+PixelAnswer answerRayOnScreen(const QuantityInput& input, size_t pixel)
+{
+    PixelAnswer answer = answerRay(computeEffectRay(input.testCase, surfaceOf(input, pixel)));
+    if (answer.ray.status != HitReason::kNone) return answer;
+    answer.rayDirNDC = rayDirectionNDC(input.testCase.camera, answer.ray.originWS, answer.ray.dirWS);
+    return answer;
+}
+
 PixelAnswer answerSphere(const QuantityInput& input, size_t pixel)
 {
     const Material& material = input.testCase.material;
@@ -198,6 +206,8 @@ const std::vector<Quantity>& analyticQuantities()
                      answerSphereProxy),
         makeQuantity("proxy_infinite", "65504 m along the case's ray.", projected, nullptr, nullptr,
                      answerInfiniteProxy),
+        makeQuantity("ray_direction_ndc", "Direction of the case's ray on screen, and the change of 1/depth along it.",
+                     {kRayDirNDC}, nullptr, nullptr, answerRayOnScreen),
         makeQuantity(
             "screen_weight",
             "Weight of the proxy's hit; for a march, of the true hit where the screen shows it. 0 without a hit.",

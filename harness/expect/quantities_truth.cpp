@@ -30,6 +30,8 @@ PixelAnswer answerTruth(const QuantityInput& input, size_t pixel)
     answer.hitDepth = truth.hitLinearDepth;
     answer.hitPositionSS = truth.hitPositionSS;
     answer.radiance = truth.radiance;
+    const glm::dvec2 uv = truth.hitPositionSS / glm::dvec2(input.testCase.camera.width, input.testCase.camera.height);
+    answer.positionNDC = {2.0 * uv.x - 1.0, 1.0 - 2.0 * uv.y};
     if (truth.screen == ScreenKnowledge::kVisible || truth.screen == ScreenKnowledge::kHidden) {
         const glm::dvec2 size(input.testCase.camera.width, input.testCase.camera.height);
         answer.hitWeight =
@@ -69,6 +71,8 @@ const std::vector<Quantity>& truthTable()
                      {kHitDepth}, always, nullptr, answerTruth),
         makeQuantity("hit_position_ss", "Where that is on screen; 0 for the sky and behind the camera.",
                      {kHitPositionSS}, always, nullptr, answerTruth),
+        makeQuantity("hit_position_ndc", "The same in normalised device coordinates, y up.", {kPositionNDC}, always,
+                     nullptr, answerTruth),
         makeQuantity("hit_radiance",
                      "Radiance of what the ray meets, the sky included; Color: times its screen weight.",
                      {kColor, kSampledColor}, always, nullptr, answerTruth),

@@ -57,6 +57,12 @@ vec3 encodeCount(int count, int maximum)
     return vec3(saturate(safeDivide(float(count), float(maximum > 0 ? maximum : 0), 0.0)));
 }
 
+// As it is.
+vec3 encodeColor(vec3 color)
+{
+    return isFinite(color) ? color : kDebugNotANumber;
+}
+
 vec3 encodeWeight(float weight)
 {
     return isFinite(weight) ? vec3(weight) : kDebugNotANumber;
