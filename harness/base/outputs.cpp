@@ -28,6 +28,8 @@ constexpr std::array kOutputs{
     OutputInfo{18, "ProbeDirWS", OutputType::kDirection, 3, "", "Direction in which the first probe that got something is read; 0 without one."},
     OutputInfo{19, "ProbeMipLevel", OutputType::kScalar, 1, "", "Mip level at which it is read."},
     OutputInfo{20, "Confidence", OutputType::kScalar, 1, "", "Share of such hits that are right; 0 without a hit, 1 where the model does not say."},
+    OutputInfo{21, "PlanarUV", OutputType::kScalar, 2, "", "Where the first planar probe that reaches the pixel shows its reflection; [0,1], v down."},
+    OutputInfo{22, "PlanarStatus", OutputType::kCount, 1, "", "Why that is nowhere: 0 it is not; pass/planar_tier.glsl."},
 };
 
 } // namespace

@@ -69,6 +69,11 @@ void buildProfile(const TableReader& top, Case& testCase)
         return;
     }
     refuseKeys(top, name, {"dominant_direction"});
+    for (const Probe& probe : testCase.probes) {
+        if (probe.kind == ProbeKind::kPlanar)
+            throw InputError(top.position("probe_profile"),
+                             fmt::format("\"probe_profile\" is \"{}\" and a probe is planar; hdrp is allowed", name));
+    }
     for (const Node& node : top.find("probe")->items)
         checkBoxProbe(node, name);
     checkObject(top, testCase);

@@ -68,4 +68,31 @@ glm::dvec3 rayDirectionNDC(const Camera& camera, const glm::dvec3& originWS, con
 // Weight in [0,1] of a hit at `uv`; domain, section 2. `distance` in the same unit.
 double screenWeightAt(const glm::dvec2& uv, double distance, ScreenWeightForm form);
 
+// What PlanarStatus says: the values of crossray/probe/planar.glsl and of pass/planar_tier.glsl.
+enum class PlanarStatus : int {
+    kOk = 0,
+    kCameraNotInFront = 1,
+    kNoFieldOfView = 3,
+    kPlaneOutOfView = 4,
+    kOutsideImage = 5,
+    kBehindNearPlane = 6,
+    kOpposed = 7,
+    kNotAsked = 9,
+};
+
+// Where a planar probe's image shows the end of a ray, for a ray that a surface sends out.
+struct PlanarPlace {
+    PlanarStatus status = PlanarStatus::kNotAsked;
+    glm::dvec2 uv{0.0}; // [0,1], v down; 0 where the status is not kOk
+};
+PlanarPlace findPlanarPlace(const Camera& camera, const Probe& probe, const EffectRay& ray);
+
+// The case's planar probes by what they get of a pixel: smaller influences first. Standard probes have no part in it.
+struct PlanarShare {
+    PlanarPlace first;     // of the first whose influence reaches the surface
+    double weight = 0;     // of all
+    double multiplied = 0; // the same, each times its probe's multiplier
+};
+PlanarShare sharePlanarProbes(const Case& testCase, const SurfacePoint& surface, const EffectRay& ray);
+
 } // namespace crossray

@@ -110,6 +110,11 @@ void storeAnswer(double* target, Output output, const PixelAnswer& answer)
         return;
     case Output::kRayDirNDC:
         return storeVector(target, answer.rayDirNDC);
+    case Output::kPlanarUV:
+        return storePair(target, answer.planar.uv);
+    case Output::kPlanarStatus:
+        target[0] = static_cast<double>(answer.planar.status);
+        return;
     }
 }
 

@@ -29,6 +29,8 @@ enum class Output : int {
     kProbeWeights = 17,
     kProbeDirWS = 18,
     kProbeMipLevel = 19,
+    kPlanarUV = 21,
+    kPlanarStatus = 22,
 };
 
 // All that a quantity may know of one pixel; each fills what it answers for.
@@ -44,6 +46,7 @@ struct PixelAnswer {
     double hitWeight = 0;
     glm::dvec3 radiance{0.0};
     HierarchyShare share;
+    PlanarPlace planar;
 };
 
 // What the quantities work on; `truth` only where the quantity asks for it.
@@ -70,6 +73,7 @@ std::vector<Quantity> hierarchyQuantities();
 std::vector<Quantity> profileQuantities();
 
 const std::vector<Quantity>& analyticQuantities();
+std::vector<Quantity> planarQuantities();
 const std::vector<Quantity>& truthTable();
 
 // A quantity whose info's output names are those of `outputs`.

@@ -226,6 +226,8 @@ const std::vector<Quantity>& analyticQuantities()
             joined.push_back(std::move(quantity));
         for (Quantity& quantity : profileQuantities())
             joined.push_back(std::move(quantity));
+        for (Quantity& quantity : planarQuantities())
+            joined.push_back(std::move(quantity));
         return joined;
     }();
     return all;

@@ -58,6 +58,9 @@ std::string refuseWhereItHasNoTiers(const Case& testCase, Output)
         model == ProjectionModel::kHiz || model == ProjectionModel::kLinear || model == ProjectionModel::kPatches;
     if (isMarch && (testCase.hierarchy & kTierScreen))
         return "a march has no closed form; a proxy is needed for the screen's tier, or none";
+    for (const Probe& probe : testCase.probes)
+        if (probe.kind == ProbeKind::kPlanar)
+            return "planar probes have forms of their own: planar_look_up, planar_tiers";
     return {};
 }
 

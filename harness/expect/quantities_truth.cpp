@@ -40,6 +40,14 @@ PixelAnswer answerTruth(const QuantityInput& input, size_t pixel)
     return answer;
 }
 
+// Whatever the screen shows of it, and however it weighs that.
+PixelAnswer answerUnweighted(const QuantityInput& input, size_t pixel)
+{
+    PixelAnswer answer = answerTruth(input, pixel);
+    answer.hitWeight = 1.0;
+    return answer;
+}
+
 bool always(const Case&)
 {
     return true;
@@ -76,6 +84,8 @@ const std::vector<Quantity>& truthTable()
         makeQuantity("hit_radiance",
                      "Radiance of what the ray meets, the sky included; Color: times its screen weight.",
                      {kColor, kSampledColor}, always, nullptr, answerTruth),
+        makeQuantity("ray_radiance", "The same without a weight: all that a mirror could show.", {kColor}, always,
+                     nullptr, answerUnweighted),
         makeQuantity("path_length", "Way inside the solid.", {kPathLength}, always, refuseReflection, answerTruth),
     };
     return table;

@@ -3,6 +3,7 @@
 #include "harness/pass/bindings.h"
 #include "harness/pass/pass_params.h"
 #include "harness/pass/pixel_record.h"
+#include "harness/pass/planar_params.h"
 #include "harness/pass/probe_params.h"
 #include "harness/pass/trace_variant.h"
 
@@ -135,6 +136,10 @@ class JobBuilder {
         if (usesProbes(testCase)) {
             bindings.push_back(addBuffer(kProbeParamsBinding, uniformBuffer(makeProbeParams(data_, precision_))));
             bindings.push_back(addImage(kProbeAtlasBinding, makeProbeAtlas(data_)));
+        }
+        if (usesPlanarProbes(testCase)) {
+            bindings.push_back(addBuffer(kPlanarParamsBinding, uniformBuffer(makePlanarParams(data_, precision_))));
+            bindings.push_back(addImage(kPlanarAtlasBinding, makePlanarAtlas(data_)));
         }
         const size_t planeScalars = static_cast<size_t>(camera().width) * static_cast<size_t>(camera().height) * 4;
         bindings.push_back(query ? addBuffer(kRecordBinding, storageBuffer(countRecordScalars(query->stepCapacity)))

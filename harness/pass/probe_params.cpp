@@ -32,8 +32,7 @@ class ProbeParamsFiller {
         params_.skyHorizon = vector(sky.gradient.horizon, 0.0);
         params_.skyNadir = vector(sky.gradient.nadir, 0.0);
         params_.skyUpWS = vector(testCase_.scene.upWS, 0.0);
-        params_.settings = {static_cast<int>(testCase_.probes.size()), static_cast<int>(testCase_.dominantDirection), 0,
-                            0};
+        params_.settings = {0, static_cast<int>(testCase_.dominantDirection), 0, 0};
         int row = 0;
         const std::vector<Cubemap>& cubemaps = data_.environments();
         std::vector<int> rows;
@@ -44,7 +43,11 @@ class ProbeParamsFiller {
         const auto placeOf = [&](size_t cubemap) {
             return glm::ivec4(rows[cubemap], cubemaps[cubemap].size, cubemaps[cubemap].levelCount(), 0);
         };
-        const std::vector<size_t> order = orderProbes(testCase_);
+        std::vector<size_t> order = orderProbes(testCase_);
+        const auto planar = std::stable_partition(order.begin(), order.end(), [&](size_t probe) {
+            return testCase_.probes[probe].kind == ProbeKind::kReflection;
+        });
+        params_.settings.x = static_cast<int>(planar - order.begin()); // planar ones follow: pass/planar_tier.glsl
         for (size_t place = 0; place < order.size(); ++place) {
             fillItem(params_.items[place], testCase_.probes[order[place]], static_cast<int>(order[place]));
             params_.cubemaps[place] = placeOf(order[place]);

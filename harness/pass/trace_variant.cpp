@@ -1,5 +1,7 @@
 #include "harness/pass/trace_variant.h"
 
+#include "harness/pass/planar_params.h"
+
 namespace crossray {
 
 uint32_t makeOutputMask(const Case& testCase)
@@ -43,6 +45,7 @@ std::map<std::string, double> makeTraceVariant(const Case& testCase)
         {"kSkyModel", static_cast<int>(testCase.sky.model)},
         {"kProbeProfile", static_cast<int>(testCase.probeProfile)},
         {"kProfileSwitches", makeProfileSwitches(testCase.profile)},
+        {"kPlanarTier", usesPlanarProbes(testCase) ? 1 : 0},
     };
 }
 

@@ -11,8 +11,10 @@ const int kMaskBinding = 4;
 const int kPyramidBinding = 8;
 const int kOutputBinding = 9;
 const int kProbeAtlasBinding = 10;
+const int kPlanarAtlasBinding = 11;
 const int kRecordBinding = 12;
 const int kSurfaceBinding = 13;
 const int kProbeParamsBinding = 16;
+const int kPlanarParamsBinding = 17;
 
 #endif

@@ -4,6 +4,7 @@
 
 #include "crossray/shared/pass_params.glsl"
 #include "crossray/shared/probe_params.glsl"
+#include "crossray/shared/planar_params.glsl"
 #include "bindings/binding_numbers.glsl"
 #include "bindings/variants.glsl"
 
@@ -17,6 +18,8 @@ layout(std430, binding = kSurfaceBinding) readonly buffer SurfaceBlock { vec4 su
 layout(std430, binding = kOutputBinding) writeonly buffer OutputBlock { vec4 outputValues[]; }; // plane after plane
 layout(std430, binding = kRecordBinding) writeonly buffer RecordBlock { vec4 recordValues[]; }; // pass/record_layout.glsl
 layout(std140, binding = kProbeParamsBinding) uniform ProbeParamsBlock { ProbeParams probeParams; };
+layout(std140, binding = kPlanarParamsBinding) uniform PlanarParamsBlock { PlanarParams planarParams; };
+layout(binding = kPlanarAtlasBinding) uniform sampler2D planarAtlasImage; // rgb: linear radiance; pass/planar_tier.glsl
 layout(binding = kProbeAtlasBinding) uniform sampler2D probeAtlasImage; // rgb: linear radiance; pass/probe_tier.glsl
 
 float fetchDeviceDepth(ivec2 pixel) { return texelFetch(deviceDepthImage, pixel, 0).r; }
@@ -27,6 +30,7 @@ vec2 loadPyramidCell(int index) { return pyramidCells[index]; }
 vec4 loadSurfaceCell(int index) { return surfaceCells[index]; }
 void storeOutputValue(int index, vec4 value) { outputValues[index] = value; }
 void storeRecordValue(int index, vec4 value) { recordValues[index] = value; }
+vec3 fetchPlanarAtlas(ivec2 texel) { return texelFetch(planarAtlasImage, texel, 0).rgb; }
 vec3 fetchProbeAtlas(ivec2 texel) { return texelFetch(probeAtlasImage, texel, 0).rgb; }
 
 #endif

@@ -13,6 +13,7 @@ CROSSRAY_VARIANT(5, kReversedDepth, 1)    // 1: View.reversedDepth
 CROSSRAY_VARIANT(6, kScreenWeightForm, 1) // 0 linear, 1 smooth as of 2018, 2 smooth as of today
 CROSSRAY_VARIANT(10, kHierarchy, 0)       // sum of 1 screen, 2 probes, 4 sky; 0: the projection alone
 CROSSRAY_VARIANT(11, kSkyModel, 1)        // 0 none, 1 gradient, 2 cubemap
+CROSSRAY_VARIANT(16, kPlanarTier, 0)      // 1: there are planar probes
 CROSSRAY_VARIANT(20, kRecordPixel, 0)     // 1: records the pixel params.record and stores no plane
 CROSSRAY_VARIANT(26, kProbeProfile, 0)    // 0 HDRP, 1 Built-in, 2 URP's manual, 3 URP's code
 CROSSRAY_VARIANT(27, kProfileSwitches, 3) // bits of pass/probe_profiles.glsl

@@ -6,6 +6,7 @@
 #include "crossray/hierarchy/weights.glsl"
 #include "crossray/probe/sky.glsl"
 #include "pass/output_slots.glsl"
+#include "pass/planar_tier.glsl"
 #include "pass/pixel_color.glsl"
 #include "pass/probe_profiles.glsl"
 #include "pass/probe_tier.glsl"
@@ -25,18 +26,21 @@ struct HierarchyAnswer {
     vec4 probeWeights;  // what the first four probes of the case got
     vec3 probeDirWS;    // in which the first probe that got something is read
     float probeMipLevel;
+    PlanarLookup planar; // of the first planar probe that reaches the pixel
 };
 
 HierarchyAnswer answerNothing()
 {
-    return HierarchyAnswer(vec3(0.0), vec4(0.0), vec4(0.0), vec3(0.0), 0.0);
+    return HierarchyAnswer(vec3(0.0), vec4(0.0), vec4(0.0), vec3(0.0), 0.0,
+                           PlanarLookup(vec2(0.0), 0.0, kPlanarNotAsked));
 }
 
 bool wantsHierarchy()
 {
     bool wantsWeights = wantsOutput(kOutputTierWeights) || wantsOutput(kOutputProbeWeights);
     bool wantsLookUp = wantsOutput(kOutputProbeDirWS) || wantsOutput(kOutputProbeMipLevel);
-    return kHierarchy != 0 && (wantsOutput(kOutputColor) || wantsWeights || wantsLookUp);
+    bool wantsPlanar = wantsOutput(kOutputPlanarUV) || wantsOutput(kOutputPlanarStatus);
+    return kHierarchy != 0 && (wantsOutput(kOutputColor) || wantsWeights || wantsLookUp || wantsPlanar);
 }
 
 // The sky is read along the ray itself: it is nowhere, so nothing shifts it.
@@ -54,28 +58,36 @@ vec3 readSky(vec3 dirWS)
 }
 
 // Of a pixel that has a ray. The screen's colour counts with the screen's weight, which is 0 without a hit.
-HierarchyAnswer askTiers(PixelSurface surface, PixelAnswer answer, ScreenColor screen)
+HierarchyAnswer askTiers(View view, PixelSurface surface, PixelAnswer answer, ScreenColor screen)
 {
     HierarchyAnswer result = answerNothing();
     float full = 0.0;
     if ((kHierarchy & kTierScreen) != 0) {
         TierWeight added = addTier(full, screen.weight);
-        result = HierarchyAnswer(screen.color * added.weight, vec4(added.weight, 0.0, 0.0, 0.0), vec4(0.0), vec3(0.0), 0.0);
+        result = HierarchyAnswer(screen.color * added.weight, vec4(added.weight, 0.0, 0.0, 0.0), vec4(0.0), vec3(0.0), 0.0,
+                                 result.planar);
         full = added.hierarchyWeight;
+    }
+    if ((kHierarchy & kTierProbes) != 0 && kPlanarTier == 1) {
+        PlanarTier tier = askPlanarProbes(view, surface, answer.rayOriginWS, answer.rayDirWS, full);
+        result = HierarchyAnswer(result.color + tier.color, result.tierWeights + vec4(0.0, 0.0, tier.weight, 0.0),
+                                 tier.weights, vec3(0.0), 0.0, tier.first);
+        full = tier.hierarchyWeight;
     }
     if ((kHierarchy & kTierProbes) != 0) {
         ProbeTier tier = kProbeProfile == kProfileHdrp
                              ? askProbes(surface, answer.rayOriginWS, answer.rayDirWS, full)
                              : askProfileProbes(surface, answer.rayOriginWS, answer.rayDirWS, full);
         result = HierarchyAnswer(result.color + tier.color, result.tierWeights + vec4(0.0, tier.weight, 0.0, 0.0),
-                                 tier.weights, tier.firstDirWS, tier.firstMipLevel);
+                                 result.probeWeights + tier.weights, tier.firstDirWS, tier.firstMipLevel,
+                                 result.planar);
         full = tier.hierarchyWeight;
     }
     if ((kHierarchy & kTierSky) != 0 && kSkyModel != kSkyNone) {
         TierWeight added = addSky(full);
         result = HierarchyAnswer(result.color + readSky(answer.rayDirWS) * added.weight,
                                  result.tierWeights + vec4(0.0, 0.0, 0.0, added.weight), result.probeWeights,
-                                 result.probeDirWS, result.probeMipLevel);
+                                 result.probeDirWS, result.probeMipLevel, result.planar);
     }
     return result;
 }

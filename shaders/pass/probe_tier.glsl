@@ -57,6 +57,13 @@ ProbeView readProbe(int index, vec3 originWS, vec3 dirWS, float roughness)
     return ProbeView(multiplyProbeColor(color, probeParams.items[index].influenceExtents.w), seen.dirWS, mipLevel);
 }
 
+// What the first four probes of a case got, of which this one, by its place in the case, got a weight.
+vec4 weightOfProbe(int number, float weight)
+{
+    return vec4(choose(number == 0, weight, 0.0), choose(number == 1, weight, 0.0), choose(number == 2, weight, 0.0),
+                choose(number == 3, weight, 0.0));
+}
+
 struct ProbeTier {
     float hierarchyWeight; // of all tiers up to here
     float weight;          // of all probes
@@ -85,9 +92,7 @@ ProbeTier askProbes(PixelSurface surface, vec3 originWS, vec3 dirWS, float hiera
         if (added.weight > 0.0) {
             ProbeView seen = readProbe(index, originWS, lookUpDirWS, roughness);
             bool isFirst = !(tier.weight > 0.0);
-            int number = probeParams.items[index].kind.z;
-            vec4 got = vec4(choose(number == 0, added.weight, 0.0), choose(number == 1, added.weight, 0.0),
-                            choose(number == 2, added.weight, 0.0), choose(number == 3, added.weight, 0.0));
+            vec4 got = weightOfProbe(probeParams.items[index].kind.z, added.weight);
             tier = ProbeTier(added.hierarchyWeight, tier.weight + added.weight,
                              tier.color + seen.color * added.weight, tier.weights + got,
                              choose(isFirst, seen.dirWS, tier.firstDirWS),

@@ -57,7 +57,7 @@ void traceScreenPixel(ivec2 invocation)
     PixelAnswer answer = answerPixel(view, surface);
     ScreenColor screen = computeScreenColor(view, answer);
     HierarchyAnswer tiers = answerNothing();
-    if (wantsHierarchy()) tiers = askTiers(surface, answer, screen);
+    if (wantsHierarchy()) tiers = askTiers(view, surface, answer, screen);
     recordAnswer(true, answer, screen);
     storeAnswer(view, pixel, answer, screen, tiers);
 }

@@ -54,6 +54,10 @@ void storeAnswer(View view, ivec2 pixel, PixelAnswer answer, ScreenColor screen,
     if (wantsOutput(kOutputTierWeights)) storeOutput(kOutputTierWeights, pixel, tiers.tierWeights);
     if (wantsOutput(kOutputProbeWeights)) storeOutput(kOutputProbeWeights, pixel, tiers.probeWeights);
     if (wantsOutput(kOutputProbeDirWS)) storeOutput(kOutputProbeDirWS, pixel, vec4(tiers.probeDirWS, 0.0));
+    if (wantsOutput(kOutputPlanarUV)) storeOutput(kOutputPlanarUV, pixel, vec4(tiers.planar.positionUV, 0.0, 0.0));
+    if (wantsOutput(kOutputPlanarStatus)) {
+        storeOutput(kOutputPlanarStatus, pixel, vec4(float(tiers.planar.status), 0.0, 0.0, 0.0));
+    }
     if (wantsOutput(kOutputProbeMipLevel)) {
         storeOutput(kOutputProbeMipLevel, pixel, vec4(tiers.probeMipLevel, 0.0, 0.0, 0.0));
     }

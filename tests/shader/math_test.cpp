@@ -120,6 +120,8 @@ TEST(ShaderOutputs, AgreeWithTheHarness)
         {kOutputProbeDirWS, "ProbeDirWS"},
         {kOutputProbeMipLevel, "ProbeMipLevel"},
         {kOutputConfidence, "Confidence"},
+        {kOutputPlanarUV, "PlanarUV"},
+        {kOutputPlanarStatus, "PlanarStatus"},
     };
     EXPECT_EQ(static_cast<size_t>(kOutputCount), ids.size());
     ASSERT_EQ(crossray::allOutputs().size(), ids.size());

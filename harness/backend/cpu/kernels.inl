@@ -9,6 +9,7 @@
 
 #include "crossray/shared/pass_params.glsl"
 #include "crossray/shared/probe_params.glsl"
+#include "crossray/shared/planar_params.glsl"
 
 using Real = decltype(vec2::x);
 
@@ -17,6 +18,7 @@ thread_local PassParams params;
 thread_local PyramidParams pyramidParams;
 thread_local ProbeParams probeParams;
 thread_local SurfaceParams surfaceParams;
+thread_local PlanarParams planarParams;
 
 #define CROSSRAY_VARIANT(id, name, value) thread_local int name = value;
 #include "bindings/variants.glsl"
@@ -44,6 +46,7 @@ float fetchDeviceDepth(ivec2 pixel) { return texelOf(kDepthBinding, pixel)[0]; }
 vec3 fetchNormalWS(ivec2 pixel) { return texelRgb(kNormalBinding, pixel); }
 vec3 fetchColor(ivec2 pixel) { return texelRgb(kColorBinding, pixel); }
 vec3 fetchProbeAtlas(ivec2 texel) { return texelRgb(kProbeAtlasBinding, texel); }
+vec3 fetchPlanarAtlas(ivec2 texel) { return texelRgb(kPlanarAtlasBinding, texel); }
 bool fetchTraced(ivec2 pixel) { return texelOf(kMaskBinding, pixel)[0] > 0.5; }
 
 vec2 loadPyramidCell(int index)
@@ -114,6 +117,7 @@ constexpr CpuKernel<Real> kKernels[] = {
          bound = bindings;
          readUniform(params, kParamsBinding);
          readUniform(probeParams, kProbeParamsBinding);
+         readUniform(planarParams, kPlanarParamsBinding);
      },
      [](int x, int y) { traceScreenPixel(ivec2(x, y)); }},
 };

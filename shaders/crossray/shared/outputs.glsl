@@ -25,7 +25,9 @@ const int kOutputProbeWeights = 17;
 const int kOutputProbeDirWS = 18;
 const int kOutputProbeMipLevel = 19;
 const int kOutputConfidence = 20;
-const int kOutputCount = 21;
+const int kOutputPlanarUV = 21;
+const int kOutputPlanarStatus = 22;
+const int kOutputCount = 23;
 
 // Hit classes: the values of HitSuccess.
 const int kHitClassNoRaycast = 0;

@@ -27,7 +27,7 @@ struct ProbeItem {
 };
 
 struct ProbeParams {
-    ivec4 settings;   // probes in use, form of the dominant direction (probe/roughness.glsl), unused, unused
+    ivec4 settings;   // standard probes in use, form of the dominant direction (probe/roughness.glsl), unused, unused
     vec4 skyZenith;   // xyz: linear radiance
     vec4 skyHorizon;  // xyz: linear radiance
     vec4 skyNadir;    // xyz: linear radiance
@@ -35,7 +35,7 @@ struct ProbeParams {
     vec4 objectMinWS; // xyz: bounds of what traces, metres
     vec4 objectMaxWS; // xyz: metres
     ivec4 cubemaps[CROSSRAY_MAX_PROBES + 1]; // first row in the atlas, size, levels, unused; the sky's is the last
-    ProbeItem items[CROSSRAY_MAX_PROBES];    // in the order in which they are asked
+    ProbeItem items[CROSSRAY_MAX_PROBES];    // in the order in which they are asked, planar ones last
 };
 
 #endif

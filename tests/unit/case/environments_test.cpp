@@ -110,4 +110,6 @@ TEST_F(Environments, eachKindOfProbeSeesInItsOwnWay)
               "a.toml:17:10: \"normal\" and \"rotation\" are both given; one of them is allowed");
     EXPECT_EQ(refusal(withScene("[camera]\nprojection = \"orthographic\"\n" + planar("fov = 60\n"))),
               "a.toml:19:7: \"fov\" is not allowed with an orthographic camera");
+    EXPECT_OPENS(refusal(complete("[scene]\n" + planar(""), "probe_profile = \"urp_doc\"")),
+                 "a.toml:4:17: \"probe_profile\" is \"urp_doc\" and a probe is planar; hdrp is allowed");
 }

@@ -70,6 +70,20 @@ inline Case glassSphere(double ior = 1.5)
     return testCase;
 }
 
+// A mirror at z = -4 with a planar probe about it.
+inline Case planarMirror()
+{
+    Case testCase = makeCase({wall(-4.0, "mirror")}, TraceEffect::kReflection);
+    Probe probe;
+    probe.kind = ProbeKind::kPlanar;
+    probe.influence = {VolumeShape::kBox, {0, 0, -4}, glm::dmat3(1.0), glm::dvec3(100, 100, 0.5)};
+    probe.capturePosition = {0, 0, -4};
+    probe.mirror = {{0, 0, -4}, {0, 0, 1}, {}, 8, 8, true};
+    testCase.probes = {probe};
+    testCase.hierarchy = unsigned{kTierProbes} | unsigned{kTierSky};
+    return testCase;
+}
+
 inline Expectation expectation(const std::string& output, ExpectationSource source)
 {
     return {*findOutput(output), std::move(source), {}, {}, Where::kTraced, {}, {"case.toml", 7, 1}};

@@ -283,7 +283,7 @@ TEST(Expected, everyFormAnswersForEachOfItsOutputs)
         testCase.hierarchy = form.name == "hierarchy" ? unsigned{kTierSky} : 0;
         testCase.probeProfile = form.name == "probe_profile" ? ProbeProfile::kBuiltIn : ProbeProfile::kHdrp;
         testCase.mustFail = form.name == "box_projection_published";
-        const CaseData data(testCase);
+        const CaseData data(form.name.starts_with("planar_") ? planarMirror() : testCase);
         EXPECT_FALSE(form.summary.empty());
         ASSERT_FALSE(form.outputs.empty()) << form.name;
         for (const std::string& output : form.outputs) {

@@ -8,18 +8,6 @@ namespace crossray::test {
 
 namespace {
 
-// A mirror at z = -4 before the camera of the tests, and a planar probe about it.
-Case makeMirrorCase()
-{
-    Case testCase = makeCase({wall(-4.0, "mirror")}, TraceEffect::kReflection);
-    Probe probe;
-    probe.kind = ProbeKind::kPlanar;
-    probe.influence = {VolumeShape::kBox, {0, 0, -4}, glm::dmat3(1.0), glm::dvec3(100, 100, 0.5)};
-    probe.mirror = {{0, 0, -4}, {0, 0, 1}, {}, 8, 8, true};
-    testCase.probes = {probe};
-    return testCase;
-}
-
 std::vector<std::string> describe(const Case& testCase)
 {
     return describeDiagnosis(diagnosePlanar(CaseData(testCase), testCase.probes[0]));
@@ -29,7 +17,7 @@ std::vector<std::string> describe(const Case& testCase)
 
 TEST(PlanarDiagnosis, allIsWell)
 {
-    const std::vector<std::string> lines = describe(makeMirrorCase());
+    const std::vector<std::string> lines = describe(planarMirror());
     ASSERT_EQ(lines.size(), 3u);
     EXPECT_EQ(lines[0], "The influence volume overlaps the receiver: 384 of its 384 pixels are inside.");
     EXPECT_EQ(lines[1], "The mirror plane's normal is parallel to the surface's: 0 degrees apart at most.");
@@ -38,7 +26,7 @@ TEST(PlanarDiagnosis, allIsWell)
 
 TEST(PlanarDiagnosis, theInfluenceMissesTheReceiver)
 {
-    Case testCase = makeMirrorCase();
+    Case testCase = planarMirror();
     testCase.probes[0].influence.center.z = -2;
     EXPECT_EQ(describe(testCase)[0], "The influence volume does not overlap the receiver: none of its 384 pixels is "
                                      "inside, the nearest is 1.5 m away. The probe shows nothing.");
@@ -50,7 +38,7 @@ TEST(PlanarDiagnosis, theInfluenceMissesTheReceiver)
 
 TEST(PlanarDiagnosis, theMirrorIsNotParallel)
 {
-    Case testCase = makeMirrorCase();
+    Case testCase = planarMirror();
     testCase.probes[0].mirror.normal = {0, std::sin(0.1), std::cos(0.1)};
     EXPECT_EQ(describe(testCase)[1],
               "The mirror plane's normal is not parallel to the surface's: 5.7296 to 5.7296 degrees "
@@ -62,7 +50,7 @@ TEST(PlanarDiagnosis, theMirrorIsNotParallel)
 
 TEST(PlanarDiagnosis, theCameraIsNotInFront)
 {
-    Case testCase = makeMirrorCase();
+    Case testCase = planarMirror();
     testCase.probes[0].mirror.position = {0, 0, 0};
     EXPECT_EQ(describe(testCase)[2],
               "The camera is on the mirror plane: nothing is captured, the probe shows nothing.");
@@ -75,7 +63,7 @@ TEST(PlanarDiagnosis, theCameraIsNotInFront)
 
 TEST(PlanarDiagnosis, thereIsNoReceiver)
 {
-    Case testCase = makeMirrorCase();
+    Case testCase = planarMirror();
     testCase.scene.primitives[0].material = "diffuse";
     const std::vector<std::string> lines = describe(testCase);
     ASSERT_EQ(lines.size(), 2u);
