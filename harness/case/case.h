@@ -27,7 +27,8 @@ enum class ProjectionModel {
     kProxySphere = 3,
     kHiz = 4,
     kLinear = 5,
-    kPatches = 6
+    kPatches = 6,
+    kProxyProbe = 7
 };
 // The text's linear ramp, Unity 2018's smoothed ramp, today's smoothed ramp of half the width (domain, section 2).
 enum class ScreenWeightForm { kLinear = 0, kSmooth2018 = 1, kSmoothToday = 2 };

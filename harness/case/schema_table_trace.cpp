@@ -39,9 +39,11 @@ std::vector<KeySpec> projectionKeys()
 {
     return {
         Key("projection", "model", kChoice)
-            .oneOf({"none", "proxy_infinite", "proxy_box", "proxy_sphere", "hiz", "linear", "patches"})
+            .oneOf({"none", "proxy_infinite", "proxy_box", "proxy_sphere", "hiz", "linear", "patches", "proxy_probe"})
             .byDefault("\"none\"")
-            .says("What the ray is projected on; none computes the ray alone."),
+            .says("What the ray is projected on; none computes the ray alone, proxy_probe takes the proxy of the first "
+                  "[[probe]] "
+                  "that counts at the pixel, else the infinite one."),
         Key("projection", "proxy", kTable)
             .withoutIt("required by proxy_box and proxy_sphere")
             .says("The proxy volume."),

@@ -27,7 +27,7 @@ struct Row {
 bool isProxy(const PixelRecord& record)
 {
     return record.model == ProjectionModel::kProxyInfinite || record.model == ProjectionModel::kProxyBox ||
-           record.model == ProjectionModel::kProxySphere;
+           record.model == ProjectionModel::kProxySphere || record.model == ProjectionModel::kProxyProbe;
 }
 
 bool isMarch(const PixelRecord& record)

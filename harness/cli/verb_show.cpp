@@ -117,6 +117,9 @@ void printProjection(const Projection& projection)
     case ProjectionModel::kProxySphere:
         fmt::print("projection proxy, sphere at {}, radius {:g} m", formatVector(proxy.center), proxy.radius);
         break;
+    case ProjectionModel::kProxyProbe:
+        fmt::print("projection proxy of the first probe, else infinite");
+        break;
     case ProjectionModel::kHiz:
         fmt::print("projection HiZ, levels {} to {}, {} iterations, depth bias {:g} m", projection.hiz.minLevel,
                    projection.hiz.maxLevel, projection.hiz.maxIterations, projection.hiz.depthBias);

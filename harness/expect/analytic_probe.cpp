@@ -172,6 +172,22 @@ std::vector<size_t> hdrpOrder(const std::vector<Probe>& probes)
     return order;
 }
 
+ChosenProxy chooseProxy(const Case& testCase, const SurfacePoint& surface, const glm::dvec3& dirWS)
+{
+    if (testCase.projection.model != ProjectionModel::kProxyProbe)
+        return {testCase.projection.model, testCase.projection.proxy};
+    for (const size_t index : hdrpOrder(testCase.probes)) {
+        const Probe& probe = testCase.probes[index];
+        if (probeWeightAt(probe, surface, dirWS) <= 0.0) continue;
+        const ProbeVolume& proxy = probe.proxy;
+        const ProjectionModel model = proxy.shape == VolumeShape::kBox      ? ProjectionModel::kProxyBox
+                                      : proxy.shape == VolumeShape::kSphere ? ProjectionModel::kProxySphere
+                                                                            : ProjectionModel::kProxyInfinite;
+        return {model, {proxy.center, proxy.worldFromVolume, proxy.halfExtents, proxy.halfExtents.x}};
+    }
+    return {};
+}
+
 ProbeSight lookThroughProbe(const Probe& probe, const Ray& ray)
 {
     const double distance =

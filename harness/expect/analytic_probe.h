@@ -16,6 +16,14 @@ double probeWeightAt(const Probe& probe, const SurfacePoint& surface, const glm:
 // The places of the probes in the order in which HDRP asks them.
 std::vector<size_t> hdrpOrder(const std::vector<Probe>& probes);
 
+// What a case projects on at a surface: its own proxy or, for proxy_probe, that of the first probe which counts there,
+// and the infinite one where none does.
+struct ChosenProxy {
+    ProjectionModel model = ProjectionModel::kProxyInfinite;
+    ProxyVolume volume;
+};
+ChosenProxy chooseProxy(const Case& testCase, const SurfacePoint& surface, const glm::dvec3& dirWS);
+
 // A reflection as the probe's capture saw it.
 struct ProbeSight {
     glm::dvec3 dirWS{0.0};

@@ -61,7 +61,10 @@ PixelAnswer answerProxy(const QuantityInput& input, size_t pixel, ProjectionMode
 {
     const Camera& camera = input.testCase.camera;
     PixelAnswer answer = answerRay(computeEffectRay(input.testCase, surfaceOf(input, pixel)));
-    const RayEnd end = projectOnProxy(input.frame, model, input.testCase.projection.proxy, answer.ray);
+    ChosenProxy proxy{model, input.testCase.projection.proxy};
+    if (model == ProjectionModel::kProxyProbe)
+        proxy = chooseProxy(input.testCase, surfaceOf(input, pixel), answer.ray.dirWS);
+    const RayEnd end = projectOnProxy(input.frame, proxy.model, proxy.volume, answer.ray);
     answer.hitClass = end.hitClass;
     answer.reason = end.reason;
     if (end.hitClass != HitClass::kHit) return answer;
@@ -87,6 +90,11 @@ PixelAnswer answerSphereProxy(const QuantityInput& input, size_t pixel)
 PixelAnswer answerInfiniteProxy(const QuantityInput& input, size_t pixel)
 {
     return answerProxy(input, pixel, ProjectionModel::kProxyInfinite);
+}
+
+PixelAnswer answerProbeProxy(const QuantityInput& input, size_t pixel)
+{
+    return answerProxy(input, pixel, ProjectionModel::kProxyProbe);
 }
 
 bool isMarch(const Case& testCase)
@@ -174,6 +182,12 @@ std::string refuseOtherThanLinear(const Case& testCase, Output)
     return "the case does not march linearly; projection linear is needed";
 }
 
+std::string refuseOtherThanProbes(const Case& testCase, Output)
+{
+    if (testCase.projection.model == ProjectionModel::kProxyProbe) return {};
+    return "the case does not project on its probes' proxies; projection proxy_probe is needed";
+}
+
 std::string refuseRecorded(const Case& testCase, Output)
 {
     if (!testCase.recorded) return {};
@@ -208,6 +222,10 @@ const std::vector<Quantity>& analyticQuantities()
                      answerInfiniteProxy),
         makeQuantity("ray_direction_ndc", "Direction of the case's ray on screen, and the change of 1/depth along it.",
                      {kRayDirNDC}, nullptr, nullptr, answerRayOnScreen),
+        makeQuantity(
+            "proxy_probe",
+            "Where the case's ray leaves the proxy of the first probe that counts at the pixel, else 65504 m on.",
+            projected, nullptr, refuseOtherThanProbes, answerProbeProxy),
         makeQuantity(
             "screen_weight",
             "Weight of the proxy's hit; for a march, of the true hit where the screen shows it. 0 without a hit.",

@@ -22,12 +22,13 @@ glm::dvec3 imageAt(const QuantityInput& input, const glm::dvec2& positionSS)
     return hit ? computeRadiance(input.testCase.scene, *hit) : computeSkyRadiance(input.testCase.scene, ray.dirWS);
 }
 
-ScreenPart askScreen(const QuantityInput& input, const EffectRay& ray)
+ScreenPart askScreen(const QuantityInput& input, const SurfacePoint& surface, const EffectRay& ray)
 {
     const Case& testCase = input.testCase;
     const Projection& projection = testCase.projection;
     if (projection.model == ProjectionModel::kNone) return {};
-    const RayEnd end = projectOnProxy(input.frame, projection.model, projection.proxy, ray);
+    const ChosenProxy proxy = chooseProxy(testCase, surface, ray.dirWS);
+    const RayEnd end = projectOnProxy(input.frame, proxy.model, proxy.volume, ray);
     if (end.hitClass != HitClass::kHit) return {};
     const glm::dvec2 uv = end.screen.positionSS / glm::dvec2(testCase.camera.width, testCase.camera.height);
     ScreenPart part;
@@ -41,7 +42,7 @@ PixelAnswer answerHierarchy(const QuantityInput& input, size_t pixel)
     const SurfacePoint& surface = (*input.surfaces)[pixel];
     PixelAnswer answer;
     answer.ray = computeEffectRay(input.testCase, surface);
-    const ScreenPart screen = askScreen(input, answer.ray);
+    const ScreenPart screen = askScreen(input, surface, answer.ray);
     answer.share = shareHierarchy(input.data, surface, answer.ray, screen.weight, screen.color);
     answer.radiance = answer.share.color;
     answer.hitWeight = 1.0; // the tiers' weights are in it

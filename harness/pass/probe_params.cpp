@@ -131,7 +131,7 @@ void copyCubemap(const Cubemap& cubemap, int row, ImageDesc& atlas)
 
 bool usesProbes(const Case& testCase)
 {
-    return testCase.hierarchy != 0;
+    return testCase.hierarchy != 0 || testCase.projection.model == ProjectionModel::kProxyProbe;
 }
 
 std::vector<std::byte> makeProbeParams(const CaseData& data, Precision precision)

@@ -66,15 +66,19 @@ ProxyHit projectOnProxy(vec3 originWS, vec3 dirWS)
     return projectProxyInfinite(originWS, dirWS);
 }
 
-PixelAnswer answerByProxy(View view, RefractionExit ray)
+PixelAnswer answerOfProxyHit(View view, RefractionExit ray, ProxyHit hit)
 {
-    ProxyHit hit = projectOnProxy(ray.positionWS, ray.dirWS);
     recordProxyHit(hit);
     ScreenPosition end = projectWSToSS(view, hit.positionWS);
     bool success = hit.hit && end.inFront;
     int reason = hit.hit ? (end.inFront ? kHitReasonNone : kHitReasonBehindCamera) : hit.reason;
     return PixelAnswer(success ? kHitClassHit : kHitClassMiss, reason, ray.positionWS, ray.dirWS, ray.pathLength,
                        end.positionSS, success ? end.linearDepth : 0.0, 0, 0, 0, success ? 1.0 : 0.0);
+}
+
+PixelAnswer answerByProxy(View view, RefractionExit ray)
+{
+    return answerOfProxyHit(view, ray, projectOnProxy(ray.positionWS, ray.dirWS));
 }
 
 PixelAnswer answerByHiz(View view, RefractionExit ray)

@@ -14,12 +14,16 @@
 
 #include "pass/pixel_color.glsl"
 #include "pass/hierarchy.glsl"
+#include "pass/probe_projection.glsl"
 #include "pass/store_outputs.glsl"
 
 PixelAnswer answerPixel(View view, PixelSurface surface)
 {
     RefractionExit ray = computePixelRay(surface.positionWS, surface.normalWS, surface.viewDirWS);
     recordRay(view, ray.positionWS, ray.dirWS, ray.pathLength);
+    if (kProjectionModel == kTracingModelProxyProbe && ray.status == kHitReasonNone) {
+        return answerByProbeProxy(view, surface, ray);
+    }
     return projectRay(view, ray, surface.positionSS);
 }
 
@@ -60,6 +64,9 @@ void traceScreenPixel(ivec2 invocation)
     if (wantsHierarchy()) tiers = askTiers(view, surface, answer, screen);
     recordAnswer(true, answer, screen);
     storeAnswer(view, pixel, answer, screen, tiers);
+    if (kProjectionModel == kTracingModelProxyProbe && wantsOutput(kOutputTracingModel)) {
+        storeOutput(kOutputTracingModel, pixel, vec4(float(findProxyModel(surface, answer.rayDirWS)), 0.0, 0.0, 0.0));
+    }
 }
 
 #endif

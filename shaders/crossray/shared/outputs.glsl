@@ -57,6 +57,7 @@ const int kTracingModelProxySphere = 3;
 const int kTracingModelHiz = 4;
 const int kTracingModelLinear = 5;
 const int kTracingModelPatches = 6;
+const int kTracingModelProxyProbe = 7; // asked for; a pixel's model is that of the proxy which it found
 
 // Intersection kinds: the values of IntersectionKind.
 const int kIntersectionNone = 0;  // the ray crossed the cell without meeting anything

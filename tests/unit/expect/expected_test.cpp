@@ -280,6 +280,7 @@ TEST(Expected, everyFormAnswersForEachOfItsOutputs)
     for (const ClosedForm& form : closedForms()) {
         testCase.projection.model = form.name == "screen_weight" ? ProjectionModel::kHiz : ProjectionModel::kNone;
         if (form.name == "linear_march") testCase.projection.model = ProjectionModel::kLinear;
+        if (form.name == "proxy_probe") testCase.projection.model = ProjectionModel::kProxyProbe;
         testCase.hierarchy = form.name == "hierarchy" ? unsigned{kTierSky} : 0;
         testCase.probeProfile = form.name == "probe_profile" ? ProbeProfile::kBuiltIn : ProbeProfile::kHdrp;
         testCase.mustFail = form.name == "box_projection_published";
