@@ -30,6 +30,9 @@ constexpr std::array kOutputs{
     OutputInfo{20, "Confidence", OutputType::kScalar, 1, "", "Share of such hits that are right; 0 without a hit, 1 where the model does not say."},
     OutputInfo{21, "PlanarUV", OutputType::kScalar, 2, "", "Where the first planar probe that reaches the pixel shows its reflection; [0,1], v down."},
     OutputInfo{22, "PlanarStatus", OutputType::kCount, 1, "", "Why that is nowhere: 0 it is not; pass/planar_tier.glsl."},
+    OutputInfo{23, "Transmittance", OutputType::kColor, 3, "", "Share of light that the way inside the material leaves."},
+    OutputInfo{24, "ColorMipLevel", OutputType::kScalar, 1, "", "Level of the previous frame's colour pyramid that was read."},
+    OutputInfo{25, "HistoryUV", OutputType::kScalar, 2, "", "Where the hit was on screen in the previous frame; 0 where it was not."},
 };
 
 } // namespace

@@ -18,7 +18,9 @@ void buildScene(const TableReader& top, Case& testCase);
 void buildCamera(const TableReader& top, Case& testCase);
 void buildRecorded(const TableReader& top, Case& testCase);
 void buildMaterial(const TableReader& top, Case& testCase);
+void buildThicknessMap(const TableReader& material, Case& testCase);
 void buildProjection(const TableReader& top, Case& testCase);
+void buildHistory(const TableReader& top, Case& testCase); // after buildScene and buildCamera
 void buildProbes(const TableReader& top, Case& testCase);
 void buildProfile(const TableReader& top, Case& testCase);   // after buildScene and buildMaterial
 void buildSky(const TableReader& top, Case& testCase);       // after buildScene

@@ -270,7 +270,11 @@ void buildMaterial(const TableReader& top, Case& testCase)
     material.ior = table.number("ior");
     material.thickness = table.number("thickness");
     material.thicknessMultiplier = table.number("thickness_multiplier");
+    buildThicknessMap(table, testCase);
     material.roughness = table.number("roughness");
+    material.transmittanceColor = readVec3(table, "transmittance_color");
+    material.absorptionDistance = table.number("absorption_distance");
+    material.fresnel = static_cast<FresnelModel>(table.choice("fresnel"));
     const bool refracts = material.refractionModel != RefractionModel::kNone;
     testCase.effect = refracts ? TraceEffect::kRefraction : TraceEffect::kReflection;
     if (!top.has("trace")) return;

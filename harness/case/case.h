@@ -4,6 +4,7 @@
 
 #include "harness/base/error.h"
 #include "harness/base/outputs.h"
+#include "harness/case/history.h"
 #include "harness/case/probe.h"
 #include "harness/judge/judge.h"
 #include "harness/scene/gbuffer.h"
@@ -33,12 +34,26 @@ enum class ProjectionModel {
 // The text's linear ramp, Unity 2018's smoothed ramp, today's smoothed ramp of half the width (domain, section 2).
 enum class ScreenWeightForm { kLinear = 0, kSmooth2018 = 1, kSmoothToday = 2 };
 
+// What a refracting surface reflects, and so does not let through.
+enum class FresnelModel { kNone = 0, kExact = 1, kSchlick = 2 };
+
+// Thickness by the place on screen, in the place of Material::thickness.
+struct ThicknessMap {
+    std::filesystem::path file; // resolved; empty: the gradient
+    double from = 0, to = 0;    // metres at the left or top border, and at the other
+    int axis = 0;               // 0 x, 1 y
+};
+
 struct Material {
     RefractionModel refractionModel = RefractionModel::kNone;
     double ior = 1.5;
     double thickness = 1.0; // metres
     double thicknessMultiplier = 1.0;
     double roughness = 0.0; // perceptual
+    glm::dvec3 transmittanceColor{1.0};
+    double absorptionDistance = 1.0; // metres after which white light has that colour
+    FresnelModel fresnel = FresnelModel::kNone;
+    std::optional<ThicknessMap> thicknessMap; // in the place of the thickness
 };
 
 struct ProxyVolume {
@@ -146,6 +161,7 @@ struct Case {
     TraceEffect effect = TraceEffect::kReflection;
     Material material;
     Projection projection;
+    std::optional<History> history; // without it colour is read from this frame
     std::vector<Probe> probes;
     ProbeProfile probeProfile = ProbeProfile::kHdrp;
     ProfileSettings profile; // all defaults with HDRP's

@@ -215,6 +215,7 @@ Case buildCase(const Node& root, const fs::path& file, const Node* presets)
     } else {
         buildRecorded(top, testCase);
     }
+    buildHistory(top, testCase);
     buildProbes(top, testCase);
     buildProfile(top, testCase);
     buildSky(top, testCase);

@@ -53,6 +53,7 @@ std::vector<KeySpec> projectionKeys();
 // Those of schema_table_probe.cpp: [[probe]] with [environment], [sky].
 std::vector<KeySpec> probeKeys();
 std::vector<KeySpec> skyKeys();
+std::vector<KeySpec> historyKeys();
 std::vector<KeySpec> expectKeys();
 std::vector<KeySpec> otherKeys();
 

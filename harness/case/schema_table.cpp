@@ -60,6 +60,9 @@ std::vector<KeySpec> topKeys()
         Key("", "gbuffer", kTable).withoutIt("none; this or scene is required").says("A G-buffer of another renderer."),
         Key("", "material", kTable).withoutIt("all defaults").says("The material of the traced pixels."),
         Key("", "projection", kTable).withoutIt("all defaults").says("How the ray finds its hit."),
+        Key("", "history", kTable)
+            .withoutIt("none: colour is read from this frame")
+            .says("The previous frame, which colour is read from."),
         Key("", "hierarchy", kChoiceList)
             .oneOf({"screen", "probes", "sky"})
             .withoutIt("the projection's colour alone")
@@ -268,7 +271,7 @@ std::span<const KeySpec> keySpecs()
     static const std::vector<KeySpec> specs = [] {
         std::vector<KeySpec> all;
         for (auto* group : {topKeys, cameraKeys, sceneKeys, rotationKeys, gbufferKeys, materialKeys, projectionKeys,
-                            probeKeys, skyKeys, expectKeys, otherKeys}) {
+                            historyKeys, probeKeys, skyKeys, expectKeys, otherKeys}) {
             std::vector<KeySpec> keys = group();
             all.insert(all.end(), std::make_move_iterator(keys.begin()), std::make_move_iterator(keys.end()));
         }

@@ -27,11 +27,46 @@ std::vector<KeySpec> materialKeys()
             .atMost(1e4)
             .byDefault("1.0")
             .says("Factor on the thickness."),
+        Key("material", "thickness_map", kTable)
+            .withoutIt("none")
+            .says("Thickness by the place on screen, in the place of thickness; the multiplier counts."),
         Key("material", "roughness", kNumber)
             .atLeast(0)
             .atMost(2)
             .byDefault("0.0")
             .says("Perceptual roughness; chooses the colour's mip level."),
+        Key("material", "transmittance_color", kVec3)
+            .atLeast(0)
+            .atMost(65504)
+            .byDefault("[1, 1, 1]")
+            .says("Colour that white light has after absorption_distance; above 1 it counts as 1."),
+        Key("material", "absorption_distance", kNumber)
+            .atLeast(0)
+            .atMost(65504)
+            .byDefault("1.0")
+            .says("Metres inside after which white light has transmittance_color; below 1e-5 it counts as that."),
+        Key("material", "fresnel", kChoice)
+            .oneOf({"none", "exact", "schlick"})
+            .byDefault("\"none\"")
+            .says("What the refracting surface reflects and takes off Color: nothing, Fresnel's share, or Schlick's."),
+        Key("material.thickness_map", "from", kNumber)
+            .atLeast(0)
+            .atMost(1e4)
+            .withoutIt("file or from and to are required")
+            .says("Gradient: metres at the image's left or top border."),
+        Key("material.thickness_map", "to", kNumber)
+            .atLeast(0)
+            .atMost(1e4)
+            .withoutIt("file or from and to are required")
+            .says("Gradient: metres at the opposite border."),
+        Key("material.thickness_map", "axis", kChoice)
+            .oneOf({"x", "y"})
+            .byDefault("\"x\"")
+            .says("Gradient: from left to right, or from top to bottom."),
+        Key("material.thickness_map", "file", kString)
+            .allowed("an EXR inside the case's folder")
+            .withoutIt("file or from and to are required")
+            .says("One channel of the image's size, metres."),
     };
 }
 
@@ -121,6 +156,49 @@ std::vector<KeySpec> projectionKeys()
             .atMost(32)
             .byDefault("0")
             .says("Halvings of the stretch in which the ray crossed a surface."),
+    };
+}
+
+std::vector<KeySpec> historyKeys()
+{
+    return {
+        Key("history", "eye", kVec3).withoutIt("that of [camera]").says("Position of the previous camera."),
+        Key("history", "target", kVec3).withoutIt("that of [camera]").says("What it looked at."),
+        Key("history", "up", kVec3).withoutIt("that of [camera]").says("Direction that was up."),
+        Key("history", "fov", kNumber)
+            .above(0)
+            .below(180)
+            .withoutIt("that of [camera]")
+            .says("Its vertical field of view in degrees, perspective."),
+        Key("history", "height", kNumber)
+            .above(0)
+            .withoutIt("that of [camera]")
+            .says("Its metres from bottom to top, orthographic."),
+        Key("history", "reprojection", kChoice)
+            .oneOf({"motion_vectors", "previous_view_projection"})
+            .byDefault("\"motion_vectors\"")
+            .says("How a hit is found in the previous frame: by the motion vector at it, or by the previous camera."),
+        Key("history", "levels", kInteger)
+            .atLeast(0)
+            .atMost(15)
+            .byDefault("0")
+            .says("Levels of the colour pyramid that roughness is spread over, from the finest; 0: all."),
+        Key("history", "poison", kChoice)
+            .oneOf({"none", "nan", "infinity", "negative"})
+            .byDefault("\"none\"")
+            .says("What broken pixels of the previous frame hold."),
+        Key("history", "poison_every", kInteger)
+            .atLeast(1)
+            .atMost(16384)
+            .byDefault("8")
+            .says("One pixel of so many is broken, both ways; 1: all are."),
+        Key("history", "moved", kTableList).byDefault("[]").says("Primitives that moved since the previous frame."),
+        Key("history.moved", "primitive", kInteger)
+            .atLeast(0)
+            .atMost(65535)
+            .required()
+            .says("Number of the primitive in the scene, from 0."),
+        Key("history.moved", "by", kVec3).required().says("Metres from the previous frame to this one."),
     };
 }
 

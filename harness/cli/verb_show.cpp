@@ -1,5 +1,6 @@
 #include "harness/cli/picture.h"
 #include "harness/cli/verbs.h"
+#include "harness/cli/show_color.h"
 #include "harness/expect/planar_diagnosis.h"
 #include "harness/run/case_judge.h"
 #include "harness/run/environment.h"
@@ -210,7 +211,9 @@ void printCase(const Case& testCase, const ShowOptions& options, const Style& st
         fmt::print("effect     refraction, {} model, index {:g}, thickness {:g} m x {:g}, roughness {:g}\n",
                    nameOf(material.refractionModel), material.ior, material.thickness, material.thicknessMultiplier,
                    material.roughness);
+        printAbsorption(material);
     }
+    if (testCase.history) printHistory(*testCase.history, formatCamera(testCase.history->camera));
     printProjection(testCase.projection);
     printProbes(testCase);
     std::vector<std::string_view> outputs;

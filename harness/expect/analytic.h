@@ -36,8 +36,22 @@ EffectRay refractThroughBox(const SurfacePoint& surface, double ior, double thic
 EffectRay refractThroughThin(const SurfacePoint& surface, double ior);
 EffectRay passStraight(const SurfacePoint& surface);
 
+// Metres that the material is taken to be thick at a surface point: the map's, else the material's.
+double thicknessAt(const Material& material, const SurfacePoint& surface);
+
 // The ray of the case's effect and refraction model.
 EffectRay computeEffectRay(const Case& testCase, const SurfacePoint& surface);
+
+// Share of white light, per channel in [0,1], that is left after a way inside; metres.
+glm::dvec3 transmittanceAfter(const Material& material, double pathLength);
+// Share of light that the refracting surface reflects, by the case's model; 1 at total reflection.
+double reflectedShare(const Material& material, const SurfacePoint& surface);
+
+// The levels of the previous frame's colour: 4 channels, the mean of a cell's valid pixels and their share.
+std::vector<Plane> averageLevels(const Plane& color);
+// Between cells and levels; nothing where no valid pixel counts.
+std::optional<glm::dvec3> colorAt(const std::vector<Plane>& levels, const glm::dvec2& uv, double level);
+double colorLevelOf(double roughness, TraceEffect effect, int levels);
 
 // Distance along the ray to where it leaves the proxy; nothing when it does not meet it.
 std::optional<double> distanceToBoxExit(const ProxyVolume& proxy, const Ray& ray);

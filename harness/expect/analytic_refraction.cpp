@@ -122,15 +122,20 @@ EffectRay passStraight(const SurfacePoint& surface)
     return {HitReason::kNone, surface.positionWS, -surface.toEyeWS, 0.0};
 }
 
+double thicknessAt(const Material& material, const SurfacePoint& surface)
+{
+    return surface.thickness.value_or(material.thickness * material.thicknessMultiplier);
+}
+
 EffectRay computeEffectRay(const Case& testCase, const SurfacePoint& surface)
 {
     if (testCase.effect == TraceEffect::kReflection) return reflectAtSurface(surface);
     const Material& material = testCase.material;
     switch (material.refractionModel) {
     case RefractionModel::kSphere:
-        return refractThroughSphere(surface, material.ior, material.thickness * material.thicknessMultiplier);
+        return refractThroughSphere(surface, material.ior, thicknessAt(material, surface));
     case RefractionModel::kBox:
-        return refractThroughBox(surface, material.ior, material.thickness * material.thicknessMultiplier);
+        return refractThroughBox(surface, material.ior, thicknessAt(material, surface));
     case RefractionModel::kThin:
         return refractThroughThin(surface, material.ior);
     case RefractionModel::kNone:

@@ -2,6 +2,7 @@
 
 #include "harness/base/error.h"
 #include "harness/expect/environment.h"
+#include "harness/expect/analytic.h"
 #include "harness/scene/camera_frame.h"
 
 #include <algorithm>
@@ -15,6 +16,7 @@ struct CaseData::Lazy {
     std::optional<std::vector<SurfacePoint>> surfaces;
     std::optional<Truth> truth;
     std::optional<std::vector<Cubemap>> environments;
+    std::optional<std::vector<Plane>> colorLevels;
 };
 
 namespace {
@@ -85,7 +87,8 @@ std::vector<SurfacePoint> castSurfaces(const Scene& scene, const Camera& camera,
         const Ray ray =
             frame.primaryRay({static_cast<double>(pixel % width) + 0.5, static_cast<double>(pixel / width) + 0.5});
         const auto hit = castPrimaryRay(scene, frame, ray);
-        surfaces[pixel] = {hit->positionWS, hit->backFace ? -hit->normalWS : hit->normalWS, -ray.dirWS, hit->primitive};
+        surfaces[pixel] = {hit->positionWS, hit->backFace ? -hit->normalWS : hit->normalWS, -ray.dirWS, hit->primitive,
+                           std::nullopt};
     }
     return surfaces;
 }
@@ -145,6 +148,8 @@ CaseData::CaseData(const Case& testCase)
                                 : findTracedPixels(testCase.scene, gbuffer_, testCase.effect)),
       lazy_(std::make_unique<Lazy>())
 {
+    if (testCase.history) history_ = makeFrameHistory(testCase);
+    if (testCase.material.thicknessMap) thicknessMap_ = makeThicknessMap(testCase);
 }
 
 CaseData::~CaseData() = default;
@@ -157,6 +162,9 @@ const std::vector<SurfacePoint>& CaseData::surfaces() const
     if (!lazy_->surfaces) {
         lazy_->surfaces = testCase_.recorded ? readSurfaces(gbuffer_, traced_)
                                              : castSurfaces(testCase_.scene, testCase_.camera, traced_);
+        for (size_t pixel = 0; thicknessMap_ && pixel < traced_.size(); ++pixel) {
+            (*lazy_->surfaces)[pixel].thickness = thicknessMap_->values[pixel] * testCase_.material.thicknessMultiplier;
+        }
     }
     return *lazy_->surfaces;
 }
@@ -173,6 +181,13 @@ const std::vector<Cubemap>& CaseData::environments() const
         }
     }
     return *lazy_->environments;
+}
+
+const std::vector<Plane>& CaseData::colorLevels() const
+{
+    const std::lock_guard lock(lazy_->mutex);
+    if (!lazy_->colorLevels) lazy_->colorLevels = averageLevels(history_->color);
+    return *lazy_->colorLevels;
 }
 
 const Truth& CaseData::truth() const

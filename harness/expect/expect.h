@@ -4,6 +4,7 @@
 #pragma once
 
 #include "harness/case/case.h"
+#include "harness/expect/frame_history.h"
 #include "harness/judge/judge.h"
 #include "harness/scene/cubemap.h"
 #include "harness/scene/gbuffer.h"
@@ -23,6 +24,8 @@ struct SurfacePoint {
     glm::dvec3 normalWS{0.0}; // unit, on the viewer's side
     glm::dvec3 toEyeWS{0.0};  // unit
     int primitive = -1;       // of the scene; -1 in recorded data
+    // Metres, with the multiplier, where the case has a thickness map; else the material's.
+    std::optional<double> thickness;
 };
 
 // What the expectations of one case are computed from; made once a case and shared by all backends. Surfaces,
@@ -51,6 +54,12 @@ class CaseData {
 
     const Truth& truth() const; // throws InputError when the case has no truth
 
+    // Of a case with a [history]; else null.
+    const FrameHistory* history() const { return history_ ? &*history_ : nullptr; }
+    const std::vector<Plane>& colorLevels() const; // of the history's colour; on the first call that needs them
+    // Of a case with a thickness map; else null.
+    const Plane* thicknessMap() const { return thicknessMap_ ? &*thicknessMap_ : nullptr; }
+
     // A traced pixel whose ray does not exist (total internal reflection) is unanswerable.
     std::vector<HitTruth> hitTruth() const;
 
@@ -60,6 +69,8 @@ class CaseData {
     Case testCase_;
     GBuffer gbuffer_;
     std::vector<bool> traced_;
+    std::optional<FrameHistory> history_;
+    std::optional<Plane> thicknessMap_;
     std::unique_ptr<Lazy> lazy_;
 };
 

@@ -70,7 +70,7 @@ void storeAnswer(double* target, Output output, const PixelAnswer& answer)
 {
     switch (output) {
     case Output::kColor:
-        return storeVector(target, answer.radiance * answer.hitWeight);
+        return storeVector(target, answer.radiance * answer.hitWeight * answer.composite);
     case Output::kSampledColor:
         return storeVector(target, answer.radiance);
     case Output::kRayDirWS:
@@ -92,6 +92,13 @@ void storeAnswer(double* target, Output output, const PixelAnswer& answer)
     case Output::kIterationCount:
         target[0] = static_cast<double>(answer.iterations);
         return;
+    case Output::kTransmittance:
+        return storeVector(target, answer.transmittance);
+    case Output::kColorMipLevel:
+        target[0] = answer.mipLevel;
+        return;
+    case Output::kHistoryUV:
+        return storePair(target, answer.historyUV);
     case Output::kPathLength:
         target[0] = answer.ray.pathLength;
         return;
@@ -183,6 +190,24 @@ Quantity makeQuantity(std::string name, std::string summary, std::vector<Output>
         quantity.info.outputs.emplace_back(allOutputs()[static_cast<size_t>(output)].name);
     }
     return quantity;
+}
+
+glm::dvec3 compositeOf(const Case& testCase, const SurfacePoint& surface, double pathLength)
+{
+    if (testCase.effect == TraceEffect::kReflection) return glm::dvec3(1.0);
+    return transmittanceAfter(testCase.material, pathLength) * (1.0 - reflectedShare(testCase.material, surface));
+}
+
+bool isBeforeSurface(const QuantityInput& input, size_t pixel, double linearDepth)
+{
+    if (input.testCase.effect == TraceEffect::kReflection) return false;
+    return linearDepth < input.frame.linearDepth((*input.surfaces)[pixel].positionWS);
+}
+
+glm::dvec3 ownColor(const CaseData& data, size_t pixel)
+{
+    const double* color = &data.gbuffer().plane(GBufferChannel::kColor).values[pixel * 3];
+    return {color[0], color[1], color[2]};
 }
 
 std::span<const ClosedForm> closedForms()

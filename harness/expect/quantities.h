@@ -31,6 +31,9 @@ enum class Output : int {
     kProbeMipLevel = 19,
     kPlanarUV = 21,
     kPlanarStatus = 22,
+    kTransmittance = 23,
+    kColorMipLevel = 24,
+    kHistoryUV = 25,
 };
 
 // All that a quantity may know of one pixel; each fills what it answers for.
@@ -47,6 +50,10 @@ struct PixelAnswer {
     glm::dvec3 radiance{0.0};
     HierarchyShare share;
     PlanarPlace planar;
+    glm::dvec3 transmittance{0.0};
+    glm::dvec3 composite{1.0}; // what the refracting surface lets through of the radiance
+    double mipLevel = 0;
+    glm::dvec2 historyUV{0.0};
 };
 
 // What the quantities work on; `truth` only where the quantity asks for it.
@@ -71,6 +78,12 @@ struct Quantity {
 std::vector<Quantity> hierarchyQuantities();
 // Those of the Built-in and the URP profile; part of it, too.
 std::vector<Quantity> profileQuantities();
+// What the case's surface lets through: 1 for a mirror.
+glm::dvec3 compositeOf(const Case& testCase, const SurfacePoint& surface, double pathLength);
+// A refracted ray's hit at that depth lies in front of the surface that refracts.
+bool isBeforeSurface(const QuantityInput& input, size_t pixel, double linearDepth);
+// Radiance that the pixel itself shows.
+glm::dvec3 ownColor(const CaseData& data, size_t pixel);
 
 const std::vector<Quantity>& analyticQuantities();
 std::vector<Quantity> planarQuantities();

@@ -1,5 +1,8 @@
 #include "harness/expect/quantities.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace crossray {
 
 namespace {
@@ -15,11 +18,6 @@ PixelAnswer answerRay(const EffectRay& ray)
     answer.ray = ray;
     answer.reason = ray.status;
     return answer;
-}
-
-double thicknessOf(const Material& material)
-{
-    return material.thickness * material.thicknessMultiplier;
 }
 
 PixelAnswer answerReflection(const QuantityInput& input, size_t pixel)
@@ -38,18 +36,25 @@ PixelAnswer answerRayOnScreen(const QuantityInput& input, size_t pixel)
 PixelAnswer answerSphere(const QuantityInput& input, size_t pixel)
 {
     const Material& material = input.testCase.material;
-    return answerRay(refractThroughSphere(surfaceOf(input, pixel), material.ior, thicknessOf(material)));
+    const SurfacePoint& surface = surfaceOf(input, pixel);
+    return answerRay(refractThroughSphere(surface, material.ior, thicknessAt(material, surface)));
 }
 
 PixelAnswer answerBox(const QuantityInput& input, size_t pixel)
 {
     const Material& material = input.testCase.material;
-    return answerRay(refractThroughBox(surfaceOf(input, pixel), material.ior, thicknessOf(material)));
+    const SurfacePoint& surface = surfaceOf(input, pixel);
+    return answerRay(refractThroughBox(surface, material.ior, thicknessAt(material, surface)));
 }
 
 PixelAnswer answerThin(const QuantityInput& input, size_t pixel)
 {
     return answerRay(refractThroughThin(surfaceOf(input, pixel), input.testCase.material.ior));
+}
+
+PixelAnswer answerEffect(const QuantityInput& input, size_t pixel)
+{
+    return answerRay(computeEffectRay(input.testCase, surfaceOf(input, pixel)));
 }
 
 PixelAnswer answerStraight(const QuantityInput& input, size_t pixel)
@@ -136,12 +141,14 @@ PixelAnswer answerLinear(const QuantityInput& input, size_t pixel)
     return answer;
 }
 
-// The scene's radiance along the closed form's ray: the sky's where it meets nothing.
+// The scene's radiance along the closed form's ray: the sky's where it meets nothing. What lies before a refracting
+// surface is not seen through it: there the pixel's own.
 PixelAnswer answerRadiance(const QuantityInput& input, size_t pixel)
 {
     const Case& testCase = input.testCase;
     PixelAnswer answer = answerRay(computeEffectRay(testCase, surfaceOf(input, pixel)));
     if (answer.ray.status != HitReason::kNone) return answer;
+    answer.composite = compositeOf(testCase, surfaceOf(input, pixel), answer.ray.pathLength);
     const glm::dvec2 size(testCase.camera.width, testCase.camera.height);
     // The ray starts on the surface that sends it out, or inside its model: it must not meet that one again.
     const auto hit = castRay(testCase.scene, {answer.ray.originWS, answer.ray.dirWS}, 1e-9, kNoLimit,
@@ -152,11 +159,91 @@ PixelAnswer answerRadiance(const QuantityInput& input, size_t pixel)
     }
     answer.radiance = computeRadiance(testCase.scene, *hit);
     const ScreenPoint screen = input.frame.project(hit->positionWS);
+    if (isBeforeSurface(input, pixel, screen.linearDepth)) answer.radiance = ownColor(input.data, pixel);
     if (screen.inFront) {
         answer.hitWeight = screenWeightAt(screen.positionSS / size, testCase.projection.screenWeightDistance,
                                           testCase.projection.screenWeightForm);
     }
     return answer;
+}
+
+// Where the case's projection ends, as far as a closed form or the truth knows.
+PixelAnswer answerHit(const QuantityInput& input, size_t pixel)
+{
+    if (!isMarch(input.testCase)) return answerProxy(input, pixel, input.testCase.projection.model);
+    PixelAnswer answer = answerWeight(input, pixel);
+    const TruthPixel& truth = input.truth->pixels[pixel];
+    answer.ray = computeEffectRay(input.testCase, surfaceOf(input, pixel));
+    if (truth.screen != ScreenKnowledge::kVisible) return answer;
+    answer.hitClass = HitClass::kHit;
+    answer.hitPositionSS = truth.hitPositionSS;
+    answer.hitDepth = truth.hitLinearDepth;
+    return answer;
+}
+
+// UV in the previous frame of what a place on this one's screen shows at a depth; nothing where it had no place.
+std::optional<glm::dvec2> previousUVOf(const QuantityInput& input, const glm::dvec2& positionSS, double linearDepth)
+{
+    const Case& testCase = input.testCase;
+    const glm::dvec2 size(testCase.camera.width, testCase.camera.height);
+    const CameraFrame previous(testCase.history->camera);
+    if (testCase.history->reprojection == Reprojection::kPreviousViewProjection) {
+        return findPreviousUV(testCase, previous, input.frame.unproject(positionSS, linearDepth), -1);
+    }
+    const glm::dvec2 uv = positionSS / size;
+    if (!(uv.x >= 0.0 && uv.x <= 1.0 && uv.y >= 0.0 && uv.y <= 1.0)) return std::nullopt;
+    // The motion vector is that of the pixel's centre.
+    const glm::dvec2 pixel = glm::min(glm::floor(positionSS), size - 1.0);
+    const Plane& motion = input.data.history()->motion;
+    const auto x = static_cast<int>(pixel.x), y = static_cast<int>(pixel.y);
+    const glm::dvec2 moved(motion.at(x, y, 0), motion.at(x, y, 1));
+    if (!std::isfinite(moved.x) || !std::isfinite(moved.y)) return std::nullopt;
+    return uv - moved;
+}
+
+PixelAnswer answerHistory(const QuantityInput& input, size_t pixel)
+{
+    const Case& testCase = input.testCase;
+    PixelAnswer answer = answerHit(input, pixel);
+    if (answer.hitClass != HitClass::kHit) return answer;
+    const auto levels = static_cast<int>(input.data.colorLevels().size());
+    const int asked = testCase.history->levels;
+    answer.mipLevel =
+        colorLevelOf(testCase.material.roughness, testCase.effect, asked > 0 ? std::min(asked, levels) : levels);
+    const auto width = static_cast<size_t>(testCase.camera.width);
+    glm::dvec2 place = answer.hitPositionSS;
+    double depth = answer.hitDepth;
+    if (isBeforeSurface(input, pixel, depth)) {
+        place = {static_cast<double>(pixel % width) + 0.5, static_cast<double>(pixel / width) + 0.5};
+        depth = input.frame.linearDepth(surfaceOf(input, pixel).positionWS);
+    }
+    const std::optional<glm::dvec2> uv = previousUVOf(input, place, depth);
+    std::optional<glm::dvec3> color;
+    if (uv) {
+        answer.historyUV = *uv;
+        if (uv->x >= 0.0 && uv->x <= 1.0 && uv->y >= 0.0 && uv->y <= 1.0)
+            color = colorAt(input.data.colorLevels(), *uv, answer.mipLevel);
+    }
+    answer.radiance = color.value_or(glm::dvec3(0.0));
+    answer.hitWeight = color ? answer.hitWeight : 0.0;
+    answer.composite = compositeOf(testCase, surfaceOf(input, pixel), answer.ray.pathLength);
+    return answer;
+}
+
+PixelAnswer answerAbsorption(const QuantityInput& input, size_t pixel)
+{
+    const Case& testCase = input.testCase;
+    PixelAnswer answer = answerRay(computeEffectRay(testCase, surfaceOf(input, pixel)));
+    answer.transmittance = testCase.effect == TraceEffect::kRefraction
+                               ? transmittanceAfter(testCase.material, answer.ray.pathLength)
+                               : glm::dvec3(1.0);
+    return answer;
+}
+
+std::string refuseNoHistory(const Case& testCase, Output)
+{
+    if (testCase.history) return {};
+    return "the case has no previous frame; [history] is needed";
 }
 
 std::string refuseReasonOfCast(const Case& testCase, Output output)
@@ -214,6 +301,8 @@ const std::vector<Quantity>& analyticQuantities()
                      refuseReasonOfCast, answerThin),
         makeQuantity("refraction_none", "Straight on along the view.", refracted, nullptr, refuseReasonOfCast,
                      answerStraight),
+        makeQuantity("case_ray", "The ray of the case's own effect and refraction model.", refracted, nullptr,
+                     refuseReasonOfCast, answerEffect),
         makeQuantity("proxy_box", "Where the case's ray leaves the proxy box.", projected, nullptr, nullptr,
                      answerBoxProxy),
         makeQuantity("proxy_sphere", "Where the case's ray leaves the proxy sphere.", projected, nullptr, nullptr,
@@ -230,12 +319,20 @@ const std::vector<Quantity>& analyticQuantities()
             "screen_weight",
             "Weight of the proxy's hit; for a march, of the true hit where the screen shows it. 0 without a hit.",
             {kHitWeight}, isMarch, refuseNoProjection, answerWeight),
+        makeQuantity("absorption", "Share of white light that is left after the way inside the material.",
+                     {kTransmittance}, nullptr, nullptr, answerAbsorption),
+        makeQuantity(
+            "history",
+            "Where the hit was in the previous frame, and the colour there at the roughness' level. 0 without a "
+            "hit or a place.",
+            {kColor, kSampledColor, kHitWeight, kColorMipLevel, kHistoryUV}, isMarch, refuseNoHistory, answerHistory),
         makeQuantity("linear_march",
                      "First sample of the linear march beyond the true hit, on surfaces that face the camera.",
                      {kHitPositionSS, kHitDepth, kIterationCount}, always, refuseOtherThanLinear, answerLinear),
         makeQuantity(
             "surface_radiance",
-            "Radiance of what the case's ray meets in the scene, the sky included; Color: times its screen weight.",
+            "Radiance of what the case's ray meets in the scene, the sky included; Color: times its screen weight and "
+            "what the refracting surface lets through.",
             {kColor, kSampledColor}, nullptr, refuseRecorded, answerRadiance),
     };
     static const std::vector<Quantity> all = [] {

@@ -32,7 +32,12 @@ PixelAnswer answerTruth(const QuantityInput& input, size_t pixel)
     answer.radiance = truth.radiance;
     const glm::dvec2 uv = truth.hitPositionSS / glm::dvec2(input.testCase.camera.width, input.testCase.camera.height);
     answer.positionNDC = {2.0 * uv.x - 1.0, 1.0 - 2.0 * uv.y};
-    if (truth.screen == ScreenKnowledge::kVisible || truth.screen == ScreenKnowledge::kHidden) {
+    const bool isHit = truth.screen == ScreenKnowledge::kVisible || truth.screen == ScreenKnowledge::kHidden;
+    const bool hasColor = input.data.gbuffer().planes.contains(GBufferChannel::kColor);
+    if (isHit && hasColor && isBeforeSurface(input, pixel, truth.hitLinearDepth))
+        answer.radiance = ownColor(input.data, pixel);
+    answer.composite = compositeOf(input.testCase, (*input.surfaces)[pixel], truth.pathLength);
+    if (isHit) {
         const glm::dvec2 size(input.testCase.camera.width, input.testCase.camera.height);
         answer.hitWeight =
             screenWeightAt(truth.hitPositionSS / size, projection.screenWeightDistance, projection.screenWeightForm);
@@ -81,9 +86,11 @@ const std::vector<Quantity>& truthTable()
                      {kHitPositionSS}, always, nullptr, answerTruth),
         makeQuantity("hit_position_ndc", "The same in normalised device coordinates, y up.", {kPositionNDC}, always,
                      nullptr, answerTruth),
-        makeQuantity("hit_radiance",
-                     "Radiance of what the ray meets, the sky included; Color: times its screen weight.",
-                     {kColor, kSampledColor}, always, nullptr, answerTruth),
+        makeQuantity(
+            "hit_radiance",
+            "Radiance of what the ray meets, the sky included; Color: times its screen weight and what the refracting "
+            "surface lets through.",
+            {kColor, kSampledColor}, always, nullptr, answerTruth),
         makeQuantity("ray_radiance", "The same without a weight: all that a mirror could show.", {kColor}, always,
                      nullptr, answerUnweighted),
         makeQuantity("path_length", "Way inside the solid.", {kPathLength}, always, refuseReflection, answerTruth),

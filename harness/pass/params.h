@@ -17,8 +17,8 @@ using mat4 = glm::mat4;
 #include "shaders/crossray/shared/pass_params.glsl"
 #include "shaders/crossray/shared/probe_params.glsl"
 #include "shaders/crossray/shared/planar_params.glsl"
-static_assert(sizeof(PyramidParams) == 3 * 16, "std140 pads nothing");
-static_assert(sizeof(PassParams) == 4 * 64 + (11 + CROSSRAY_MAX_PYRAMID_LEVELS) * 16, "std140 pads nothing");
+static_assert(sizeof(PyramidParams) == 4 * 16, "std140 pads nothing");
+static_assert(sizeof(PassParams) == 5 * 64 + (13 + CROSSRAY_MAX_PYRAMID_LEVELS) * 16, "std140 pads nothing");
 static_assert(sizeof(ProbeItem) == 2 * 64 + 16 * 16, "std140 pads nothing");
 static_assert(sizeof(ProbeParams) == (7 + CROSSRAY_MAX_PROBES + 1) * 16 + CROSSRAY_MAX_PROBES * sizeof(ProbeItem),
               "std140 pads nothing");

@@ -81,22 +81,23 @@ class JobBuilder {
         return {binding, Binding::What::kBuffer, job_.buffers.size() - 1};
     }
 
-    void addPyramid(ShaderCompiler& compiler, const std::filesystem::path& shaderRoot, const Binding& depth)
+    void addDepthPyramid(ShaderCompiler& compiler, const std::filesystem::path& shaderRoot, const Binding& depth)
     {
-        const size_t cells = static_cast<size_t>(levels_.back().firstCell) + 1;
-        pyramid_ = addBuffer(kPyramidBinding, storageBuffer(cells * 2));
-        job_.programs.push_back(
+        pyramid_ = addPyramid(
+            kPyramidBinding, 2, depth,
             compileEntry(compiler, shaderRoot, "entry/depth_pyramid.comp",
                          {{"kOrthographic", isOrthographic() ? 1 : 0}, {"kReversedDepth", isReversed() ? 1 : 0}}));
-        for (size_t level = 0; level < levels_.size(); ++level) {
-            const Binding params = addBuffer(
-                kParamsBinding, uniformBuffer(makePyramidParams(data_.testCase(), levels_, level, precision_)));
-            job_.dispatches.push_back({job_.programs.size() - 1,
-                                       {params, depth, *pyramid_},
-                                       groupsFor(levels_[level].width),
-                                       groupsFor(levels_[level].height),
-                                       1});
-        }
+    }
+
+    // The previous frame's colour, level by level, and the motion since.
+    void addHistory(ShaderCompiler& compiler, const std::filesystem::path& shaderRoot)
+    {
+        const FrameHistory& history = *data_.history();
+        const Binding color = addImage(kHistoryColorBinding, imageFromPlane(history.color));
+        traceBindings_.push_back(addPyramid(kColorPyramidBinding, 4, color,
+                                            compileEntry(compiler, shaderRoot, "entry/color_pyramid.comp", {})));
+        if (data_.testCase().history->reprojection == Reprojection::kMotionVectors)
+            traceBindings_.push_back(addImage(kMotionBinding, imageFromPlane(history.motion)));
     }
 
     // The pyramid of planes: the same levels, from depth and normal.
@@ -125,7 +126,11 @@ class JobBuilder {
                   const Binding& normal, const std::optional<PixelQuery>& query)
     {
         const Case& testCase = data_.testCase();
-        std::vector<Binding> bindings{depth, normal};
+        std::vector<Binding> bindings = traceBindings_;
+        bindings.push_back(depth);
+        bindings.push_back(normal);
+        if (const Plane* thickness = data_.thicknessMap())
+            bindings.push_back(addImage(kThicknessBinding, imageFromPlane(*thickness)));
         bindings.push_back(
             addBuffer(kParamsBinding, uniformBuffer(makePassParams(testCase, levels_, precision_, query))));
         if (data_.gbuffer().planes.contains(GBufferChannel::kColor)) {
@@ -155,6 +160,24 @@ class JobBuilder {
     Job take() { return std::move(job_); }
 
   private:
+    // A buffer of cells and a dispatch a level, the finest from the image.
+    Binding addPyramid(uint32_t binding, size_t scalarsPerCell, const Binding& image, ProgramSource program)
+    {
+        const size_t cells = static_cast<size_t>(levels_.back().firstCell) + 1;
+        const Binding buffer = addBuffer(binding, storageBuffer(cells * scalarsPerCell));
+        job_.programs.push_back(std::move(program));
+        for (size_t level = 0; level < levels_.size(); ++level) {
+            const Binding params = addBuffer(
+                kParamsBinding, uniformBuffer(makePyramidParams(data_.testCase(), levels_, level, precision_)));
+            job_.dispatches.push_back({job_.programs.size() - 1,
+                                       {params, image, buffer},
+                                       groupsFor(levels_[level].width),
+                                       groupsFor(levels_[level].height),
+                                       1});
+        }
+        return buffer;
+    }
+
     const Camera& camera() const { return data_.testCase().camera; }
     bool isOrthographic() const { return camera().projection == ProjectionKind::kOrthographic; }
     bool isReversed() const { return camera().depthConvention != DepthConvention::kStandard; }
@@ -170,6 +193,7 @@ class JobBuilder {
     Precision precision_;
     std::vector<PyramidLevel> levels_;
     std::optional<Binding> pyramid_;
+    std::vector<Binding> traceBindings_; // what the trace reads beside the images of every case
     Job job_;
 };
 
@@ -182,8 +206,9 @@ Job buildTraceJob(const CaseData& data, ShaderCompiler& compiler, const std::fil
     const Binding normal =
         builder.addImage(kNormalBinding, imageFromPlane(data.gbuffer().plane(GBufferChannel::kNormalWS)));
     const ProjectionModel model = data.testCase().projection.model;
-    if (model == ProjectionModel::kHiz) builder.addPyramid(compiler, shaderRoot, depth);
+    if (model == ProjectionModel::kHiz) builder.addDepthPyramid(compiler, shaderRoot, depth);
     if (model == ProjectionModel::kPatches) builder.addSurfacePyramid(compiler, shaderRoot, depth, normal);
+    if (data.testCase().history) builder.addHistory(compiler, shaderRoot);
     builder.addTrace(compiler, shaderRoot, depth, normal, query);
     return builder.take();
 }

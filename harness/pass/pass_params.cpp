@@ -40,6 +40,14 @@ glm::dvec2 computeSlope(const Camera& camera)
     return {vertical * aspect, vertical};
 }
 
+// Levels that roughness is spread over.
+int countColorLevels(const Case& testCase, const std::vector<PyramidLevel>& levels)
+{
+    const int all = static_cast<int>(levels.size());
+    const int asked = testCase.history ? testCase.history->levels : 0;
+    return asked > 0 ? std::min(asked, all) : all;
+}
+
 template <class Params>
 Params fillPassParams(const Case& testCase, const std::vector<PyramidLevel>& levels, const PixelQuery& query)
 {
@@ -57,8 +65,13 @@ Params fillPassParams(const Case& testCase, const std::vector<PyramidLevel>& lev
     params.worldFromProxy = Mat4(glm::dmat4(projection.proxy.worldFromProxy));
     params.imageSizeAndSlope = Vec4(glm::dvec4(camera.width, camera.height, slope.x, slope.y));
     params.depthTerms = Vec4(computeDepthTerms(camera));
-    params.material =
-        Vec4(glm::dvec4(material.ior, material.thickness * material.thicknessMultiplier, material.roughness, 0.0));
+    params.material = Vec4(glm::dvec4(material.ior, material.thickness * material.thicknessMultiplier,
+                                      material.roughness, material.thicknessMultiplier));
+    params.absorption = Vec4(glm::dvec4(material.transmittanceColor, material.absorptionDistance));
+    const Camera& previous = testCase.history ? testCase.history->camera : camera;
+    const glm::dvec2 previousSlope = computeSlope(previous);
+    params.previousViewFromWorld = Mat4(computeViewFromWorld(previous));
+    params.history = Vec4(glm::dvec4(previousSlope, countColorLevels(testCase, levels), 0.0));
     params.proxyCenterWS = Vec4(glm::dvec4(projection.proxy.center, 0.0));
     params.proxyExtents = Vec4(glm::dvec4(projection.proxy.halfExtents, projection.proxy.radius));
     params.tracing = Vec4(glm::dvec4(projection.hiz.depthBias, projection.screenWeightDistance, 0.0, 0.0));
@@ -96,6 +109,7 @@ Params fillPyramidParams(const Case& testCase, const std::vector<PyramidLevel>& 
     params.sourceLevel = {source.firstCell, source.width, source.height, static_cast<int>(target) - 1};
     params.targetLevel = {levels[target].firstCell, levels[target].width, levels[target].height,
                           static_cast<int>(target)};
+    params.imageSize = {levels[0].width, levels[0].height, 0, 0};
     return params;
 }
 

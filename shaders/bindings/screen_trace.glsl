@@ -13,6 +13,8 @@ layout(binding = kDepthBinding) uniform sampler2D deviceDepthImage; // r: [0,1]
 layout(binding = kNormalBinding) uniform sampler2D normalImage; // rgb: unit normal, world space
 layout(binding = kColorBinding) uniform sampler2D colorImage; // rgb: linear radiance
 layout(binding = kMaskBinding) uniform sampler2D traceMaskImage; // r: above 0.5 where the pixel traces a ray
+layout(binding = kMotionBinding) uniform sampler2D motionImage; // rg: UV now less UV then
+layout(binding = kThicknessBinding) uniform sampler2D thicknessImage; // r: metres
 layout(std430, binding = kPyramidBinding) readonly buffer PyramidBlock { vec2 pyramidCells[]; }; // nearest, farthest linear depth
 layout(std430, binding = kSurfaceBinding) readonly buffer SurfaceBlock { vec4 surfaceCells[]; }; // packed, level after level
 layout(std430, binding = kOutputBinding) writeonly buffer OutputBlock { vec4 outputValues[]; }; // plane after plane
@@ -21,11 +23,15 @@ layout(std140, binding = kProbeParamsBinding) uniform ProbeParamsBlock { ProbePa
 layout(std140, binding = kPlanarParamsBinding) uniform PlanarParamsBlock { PlanarParams planarParams; };
 layout(binding = kPlanarAtlasBinding) uniform sampler2D planarAtlasImage; // rgb: linear radiance; pass/planar_tier.glsl
 layout(binding = kProbeAtlasBinding) uniform sampler2D probeAtlasImage; // rgb: linear radiance; pass/probe_tier.glsl
+layout(std430, binding = kColorPyramidBinding) readonly buffer ColorPyramidBlock { vec4 colorCells[]; }; // colour, coverage
 
 float fetchDeviceDepth(ivec2 pixel) { return texelFetch(deviceDepthImage, pixel, 0).r; }
 vec3 fetchNormalWS(ivec2 pixel) { return texelFetch(normalImage, pixel, 0).rgb; }
 vec3 fetchColor(ivec2 pixel) { return texelFetch(colorImage, pixel, 0).rgb; }
 bool fetchTraced(ivec2 pixel) { return texelFetch(traceMaskImage, pixel, 0).r > 0.5; }
+vec2 fetchMotionUV(ivec2 pixel) { return texelFetch(motionImage, pixel, 0).rg; }
+float fetchThickness(ivec2 pixel) { return texelFetch(thicknessImage, pixel, 0).r; }
+vec4 loadColorCell(int index) { return colorCells[index]; }
 vec2 loadPyramidCell(int index) { return pyramidCells[index]; }
 vec4 loadSurfaceCell(int index) { return surfaceCells[index]; }
 void storeOutputValue(int index, vec4 value) { outputValues[index] = value; }

@@ -11,6 +11,9 @@ CROSSRAY_VARIANT(3, kOutputMask, 2097151) // bit i: output i is stored; crossray
 CROSSRAY_VARIANT(4, kOrthographic, 0)     // 1: View.orthographic
 CROSSRAY_VARIANT(5, kReversedDepth, 1)    // 1: View.reversedDepth
 CROSSRAY_VARIANT(6, kScreenWeightForm, 1) // 0 linear, 1 smooth as of 2018, 2 smooth as of today
+CROSSRAY_VARIANT(7, kThicknessMap, 0)     // 1: the thickness comes from an image
+CROSSRAY_VARIANT(8, kFresnel, 0)          // 0 none, 1 exact, 2 Schlick
+CROSSRAY_VARIANT(9, kColorSource, 0)      // 0 this frame, or the previous one by 1 motion vectors, 2 its view-projection
 CROSSRAY_VARIANT(10, kHierarchy, 0)       // sum of 1 screen, 2 probes, 4 sky; 0: the projection alone
 CROSSRAY_VARIANT(11, kSkyModel, 1)        // 0 none, 1 gradient, 2 cubemap
 CROSSRAY_VARIANT(16, kPlanarTier, 0)      // 1: there are planar probes

@@ -1,4 +1,5 @@
-// The ray that a pixel sends out: reflected, or refracted by one of the models. Hooks: the block params.
+// The ray that a pixel sends out: reflected, or refracted by one of the models. Hooks: fetchThickness, and the block
+// params.
 #ifndef PASS_PIXEL_RAY_GLSL
 #define PASS_PIXEL_RAY_GLSL
 
@@ -9,11 +10,17 @@
 // A value of kEffect; kRefractionModel has those of crossray/refract/refraction.glsl.
 const int kEffectRefraction = 1;
 
+// Metres: value times multiplier, or the map's value times it.
+float computePixelThickness(ivec2 pixel)
+{
+    if (kThicknessMap == 1) return fetchThickness(pixel) * params.material.w;
+    return params.material.y;
+}
+
 // The ray that the pixel sends out. Reflection about the shading normal; refraction by the model.
-RefractionExit computePixelRay(vec3 positionWS, vec3 normalWS, vec3 viewDirWS)
+RefractionExit computePixelRay(vec3 positionWS, vec3 normalWS, vec3 viewDirWS, float thickness)
 {
     float ior = params.material.x;
-    float thickness = params.material.y;
     if (kEffect == kEffectRefraction) {
         return computeRefraction(kRefractionModel, positionWS, normalWS, viewDirWS, ior, thickness);
     }

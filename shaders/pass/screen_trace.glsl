@@ -1,7 +1,8 @@
 // One pixel of the pass screen_trace: the reflected or refracted ray, its projection by one of the models, the screen weight, and
 // the debug modes. The variant constants select the code; what a variant does not use is not in it.
-// Hooks: fetchDeviceDepth, fetchNormalWS, fetchColor, fetchTraced, fetchProbeAtlas, loadPyramidCell, loadSurfaceCell, storeOutputValue, storeRecordValue, and the
-// blocks params and probeParams; bindings/screen_trace.glsl.
+// Hooks: fetchDeviceDepth, fetchNormalWS, fetchColor, fetchTraced, fetchThickness, fetchMotionUV, fetchProbeAtlas, loadPyramidCell,
+// loadSurfaceCell, loadColorCell, storeOutputValue, storeRecordValue, and the blocks params and probeParams;
+// bindings/screen_trace.glsl.
 #ifndef PASS_SCREEN_TRACE_GLSL
 #define PASS_SCREEN_TRACE_GLSL
 
@@ -12,14 +13,15 @@
 #include "pass/pixel_ray.glsl"
 #include "pass/projection.glsl"
 
+#include "pass/composite.glsl"
 #include "pass/pixel_color.glsl"
 #include "pass/hierarchy.glsl"
 #include "pass/probe_projection.glsl"
 #include "pass/store_outputs.glsl"
 
-PixelAnswer answerPixel(View view, PixelSurface surface)
+PixelAnswer answerPixel(View view, PixelSurface surface, float thickness)
 {
-    RefractionExit ray = computePixelRay(surface.positionWS, surface.normalWS, surface.viewDirWS);
+    RefractionExit ray = computePixelRay(surface.positionWS, surface.normalWS, surface.viewDirWS, thickness);
     recordRay(view, ray.positionWS, ray.dirWS, ray.pathLength);
     if (kProjectionModel == kTracingModelProxyProbe && ray.status == kHitReasonNone) {
         return answerByProbeProxy(view, surface, ray);
@@ -53,17 +55,17 @@ void traceScreenPixel(ivec2 invocation)
     View view = loadView();
     if (float(pixel.x) >= view.imageSize.x || float(pixel.y) >= view.imageSize.y) return;
     if (!fetchTraced(pixel)) {
-        recordAnswer(false, answerUntraced(), ScreenColor(vec3(0.0, 0.0, 0.0), 0.0));
-        storeAnswer(view, pixel, answerUntraced(), ScreenColor(vec3(0.0, 0.0, 0.0), 0.0), answerNothing());
+        recordAnswer(false, answerUntraced(), noScreenColor());
+        storeAnswer(view, pixel, answerUntraced(), noScreenColor(), answerNothing(), noPixelShare());
         return;
     }
     PixelSurface surface = loadPixelSurface(view, pixel);
-    PixelAnswer answer = answerPixel(view, surface);
-    ScreenColor screen = computeScreenColor(view, answer);
+    PixelAnswer answer = answerPixel(view, surface, computePixelThickness(pixel));
+    ScreenColor screen = computeScreenColor(view, surface, answer);
     HierarchyAnswer tiers = answerNothing();
     if (wantsHierarchy()) tiers = askTiers(view, surface, answer, screen);
     recordAnswer(true, answer, screen);
-    storeAnswer(view, pixel, answer, screen, tiers);
+    storeAnswer(view, pixel, answer, screen, tiers, computePixelShare(surface, answer));
     if (kProjectionModel == kTracingModelProxyProbe && wantsOutput(kOutputTracingModel)) {
         storeOutput(kOutputTracingModel, pixel, vec4(float(findProxyModel(surface, answer.rayDirWS)), 0.0, 0.0, 0.0));
     }

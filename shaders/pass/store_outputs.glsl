@@ -4,15 +4,17 @@
 
 #include "crossray/core/ray_ndc.glsl"
 #include "pass/output_slots.glsl"
+#include "pass/composite.glsl"
 #include "pass/hierarchy.glsl"
 #include "pass/pixel_color.glsl"
 #include "pass/projection.glsl"
 
-void storeAnswer(View view, ivec2 pixel, PixelAnswer answer, ScreenColor screen, HierarchyAnswer tiers)
+void storeAnswer(View view, ivec2 pixel, PixelAnswer answer, ScreenColor screen, HierarchyAnswer tiers,
+                 PixelShare share)
 {
     bool hit = answer.hitClass == kHitClassHit;
     vec3 color = kHierarchy != 0 ? tiers.color : screen.color * screen.weight;
-    if (wantsOutput(kOutputColor)) storeOutput(kOutputColor, pixel, vec4(color, 0.0));
+    if (wantsOutput(kOutputColor)) storeOutput(kOutputColor, pixel, vec4(color * share.composite, 0.0));
     if (wantsOutput(kOutputRayDirWS)) storeOutput(kOutputRayDirWS, pixel, vec4(answer.rayDirWS, 0.0));
     if (wantsOutput(kOutputHitDepth)) storeOutput(kOutputHitDepth, pixel, vec4(answer.linearDepth, 0.0, 0.0, 0.0));
     if (wantsOutput(kOutputHitSuccess)) {
@@ -61,6 +63,11 @@ void storeAnswer(View view, ivec2 pixel, PixelAnswer answer, ScreenColor screen,
     if (wantsOutput(kOutputProbeMipLevel)) {
         storeOutput(kOutputProbeMipLevel, pixel, vec4(tiers.probeMipLevel, 0.0, 0.0, 0.0));
     }
+    if (wantsOutput(kOutputTransmittance)) storeOutput(kOutputTransmittance, pixel, vec4(share.transmittance, 0.0));
+    if (wantsOutput(kOutputColorMipLevel)) {
+        storeOutput(kOutputColorMipLevel, pixel, vec4(screen.mipLevel, 0.0, 0.0, 0.0));
+    }
+    if (wantsOutput(kOutputHistoryUV)) storeOutput(kOutputHistoryUV, pixel, vec4(screen.historyUV, 0.0, 0.0));
 }
 
 #endif

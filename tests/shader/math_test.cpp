@@ -122,6 +122,9 @@ TEST(ShaderOutputs, AgreeWithTheHarness)
         {kOutputConfidence, "Confidence"},
         {kOutputPlanarUV, "PlanarUV"},
         {kOutputPlanarStatus, "PlanarStatus"},
+        {kOutputTransmittance, "Transmittance"},
+        {kOutputColorMipLevel, "ColorMipLevel"},
+        {kOutputHistoryUV, "HistoryUV"},
     };
     EXPECT_EQ(static_cast<size_t>(kOutputCount), ids.size());
     ASSERT_EQ(crossray::allOutputs().size(), ids.size());

@@ -49,6 +49,31 @@ vec3 fetchProbeAtlas(ivec2 texel) { return texelRgb(kProbeAtlasBinding, texel); 
 vec3 fetchPlanarAtlas(ivec2 texel) { return texelRgb(kPlanarAtlasBinding, texel); }
 bool fetchTraced(ivec2 pixel) { return texelOf(kMaskBinding, pixel)[0] > 0.5; }
 
+vec2 fetchMotionUV(ivec2 pixel)
+{
+    const Real* texel = texelOf(kMotionBinding, pixel);
+    return vec2(texel[0], texel[1]);
+}
+float fetchThickness(ivec2 pixel) { return texelOf(kThicknessBinding, pixel)[0]; }
+vec3 fetchHistoryColor(ivec2 pixel) { return texelRgb(kHistoryColorBinding, pixel); }
+
+vec4 loadColorCell(int index)
+{
+    const CpuResource<Real>& cells = bound.resources[kColorPyramidBinding];
+    const auto first = static_cast<size_t>(index) * 4;
+    if (index < 0 || first + 4 > cells.scalarCount) return vec4(0.0, 0.0, 0.0, 0.0);
+    return vec4(cells.values[first], cells.values[first + 1], cells.values[first + 2], cells.values[first + 3]);
+}
+
+void storeColorCell(int index, vec4 value)
+{
+    const CpuResource<Real>& cells = bound.resources[kColorPyramidBinding];
+    const auto first = static_cast<size_t>(index) * 4;
+    if (index < 0 || first + 4 > cells.scalarCount) return;
+    const Real components[4] = {value.x, value.y, value.z, value.w};
+    std::memcpy(cells.values + first, components, sizeof(components));
+}
+
 vec2 loadPyramidCell(int index)
 {
     const CpuResource<Real>& cells = bound.resources[kPyramidBinding];
@@ -90,6 +115,7 @@ void storeSurfaceCell(int index, vec4 value) { storeVector(kSurfaceBinding, inde
 
 #include "pass/depth_pyramid.glsl"
 #include "pass/surface_pyramid.glsl"
+#include "pass/color_pyramid.glsl"
 #include "pass/screen_trace.glsl"
 
 template <class Params>
@@ -112,6 +138,12 @@ constexpr CpuKernel<Real> kKernels[] = {
          readUniform(surfaceParams, kParamsBinding);
      },
      [](int x, int y) { buildSurfaceCell(ivec2(x, y)); }},
+    {"entry/color_pyramid.comp", 8, 8,
+     [](const CpuBindings<Real>& bindings) {
+         bound = bindings;
+         readUniform(pyramidParams, kParamsBinding);
+     },
+     [](int x, int y) { buildColorCell(ivec2(x, y)); }},
     {"entry/screen_trace.comp", 8, 8,
      [](const CpuBindings<Real>& bindings) {
          bound = bindings;

@@ -27,7 +27,10 @@ const int kOutputProbeMipLevel = 19;
 const int kOutputConfidence = 20;
 const int kOutputPlanarUV = 21;
 const int kOutputPlanarStatus = 22;
-const int kOutputCount = 23;
+const int kOutputTransmittance = 23;
+const int kOutputColorMipLevel = 24;
+const int kOutputHistoryUV = 25;
+const int kOutputCount = 26;
 
 // Hit classes: the values of HitSuccess.
 const int kHitClassNoRaycast = 0;
@@ -69,6 +72,11 @@ const int kRefractionNone = 0;
 const int kRefractionSphere = 1;
 const int kRefractionBox = 2;
 const int kRefractionThin = 3;
+
+// What a refracting surface reflects.
+const int kFresnelNone = 0;
+const int kFresnelExact = 1;
+const int kFresnelSchlick = 2;
 
 // Forms of the screen weight.
 const int kScreenWeightLinear = 0;

@@ -10,9 +10,12 @@ struct PassParams {
     mat4 worldFromView;
     mat4 clipFromView;
     mat4 worldFromProxy;    // rotation only
+    mat4 previousViewFromWorld;
     vec4 imageSizeAndSlope; // xy: pixels; zw: View.slope
     vec4 depthTerms;        // View.depthA, View.depthB, near and far distance in metres
-    vec4 material;          // index of refraction, thickness in metres, perceptual roughness, unused
+    vec4 material;          // index of refraction, thickness in metres, perceptual roughness, thickness multiplier
+    vec4 absorption;        // xyz: transmittance colour; w: distance at which white light has it, metres
+    vec4 history;           // xy: slope of the previous view, z: levels of the colour pyramid, w: unused
     vec4 proxyCenterWS;     // xyz: metres
     vec4 proxyExtents;      // xyz: half extents of the box, w: radius of the sphere; metres
     vec4 tracing;           // depth bias in metres, screen weight distance in UV, unused, unused
@@ -24,11 +27,12 @@ struct PassParams {
     ivec4 pyramidLevels[CROSSRAY_MAX_PYRAMID_LEVELS]; // first cell's index, width, height, unused
 };
 
-// Parameters of one reduction of the depth pyramid.
+// Parameters of one reduction of the depth pyramid, or of the colour pyramid.
 struct PyramidParams {
     vec4 depthTerms;   // as in PassParams
     ivec4 sourceLevel; // first cell's index, width, height, level number; unused for target level 0
-    ivec4 targetLevel; // first cell's index, width, height, level number; level 0 reads the depth buffer
+    ivec4 targetLevel; // first cell's index, width, height, level number; level 0 reads the image
+    ivec4 imageSize;   // width, height, unused, unused
 };
 
 // Parameters of one reduction of the pyramid of planes.

@@ -19,13 +19,13 @@ std::string expecting(const std::string& keys)
 
 TEST_F(BadInput, unknownKeysAreAnsweredWithTheNearestName)
 {
-    EXPECT_EQ(refusal(withScene("[material]\niro = 1.5\n")), "a.toml:11:1: unknown key \"iro\" in [material]; did you "
-                                                             "mean \"ior\"? Allowed: refraction_model, ior, thickness, "
-                                                             "thickness_multiplier, roughness");
+    EXPECT_EQ(refusal(withScene("[material]\niro = 1.5\n")),
+              "a.toml:11:1: unknown key \"iro\" in [material]; did you "
+              "mean \"ior\"? Allowed: refraction_model, ior, thickness, "
+              "thickness_multiplier, thickness_map, roughness, transmittance_color, absorption_distance, fresnel");
     EXPECT_EQ(refusal(withScene("[material]\nzzzz = 1.5\n")),
               "a.toml:11:1: unknown key \"zzzz\" in [material]; allowed: refraction_model, ior, thickness, "
-              "thickness_multiplier, "
-              "roughness");
+              "thickness_multiplier, thickness_map, roughness, transmittance_color, absorption_distance, fresnel");
     EXPECT_EQ(
         refusal(withScene("sky = { zenit = [0, 0, 0] }\n")),
         "a.toml:10:9: unknown key \"zenit\" in [scene.sky]; did you mean \"zenith\"? Allowed: zenith, horizon, nadir");
@@ -33,7 +33,7 @@ TEST_F(BadInput, unknownKeysAreAnsweredWithTheNearestName)
               "a.toml:10:2: unknown key \"materials\" at the top level; did you "
               "mean \"material\"? Allowed: schema, name, summary, "
               "tags, use, trace, outputs, backends, timeout, must_fail, needs, budget, camera, "
-              "scene, gbuffer, material, projection, hierarchy, probe, "
+              "scene, gbuffer, material, projection, history, hierarchy, probe, "
               "probe_profile, profile, dominant_direction, sky, expect, "
               "expand, known_failure");
 }

@@ -279,6 +279,8 @@ TEST(Expected, everyFormAnswersForEachOfItsOutputs)
     testCase.probes.push_back(probe);
     for (const ClosedForm& form : closedForms()) {
         testCase.projection.model = form.name == "screen_weight" ? ProjectionModel::kHiz : ProjectionModel::kNone;
+        testCase.history.reset();
+        if (form.name == "history") testCase.history.emplace().camera = testCase.camera;
         if (form.name == "linear_march") testCase.projection.model = ProjectionModel::kLinear;
         if (form.name == "proxy_probe") testCase.projection.model = ProjectionModel::kProxyProbe;
         testCase.hierarchy = form.name == "hierarchy" ? unsigned{kTierSky} : 0;
