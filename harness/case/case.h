@@ -53,7 +53,7 @@ struct Material {
     glm::dvec3 transmittanceColor{1.0};
     double absorptionDistance = 1.0; // metres after which white light has that colour
     FresnelModel fresnel = FresnelModel::kNone;
-    std::optional<ThicknessMap> thicknessMap; // in the place of the thickness
+    std::optional<ThicknessMap> thicknessMap{}; // in the place of the thickness
 };
 
 struct ProxyVolume {

@@ -4,6 +4,7 @@
 #include "harness/compile/spirv_module.h"
 #include "harness/pass/bindings.h"
 #include "harness/pass/pass.h"
+#include "harness/scene/capture.h"
 
 #include <gtest/gtest.h>
 
@@ -117,4 +118,24 @@ TEST(Cost, aProfileHasTheCodeThatItNeeds)
     EXPECT_EQ(costOfTrace("probe/urp_forward_plus").loops, 3); // no pair; who comes before, for each probe
     const size_t along = costOfTrace("probe/profile_box_projection_switched_off").instructions;
     EXPECT_LT(along, costOfTrace("probe/urp_weighs_per_pixel").instructions); // the sky, and box projection
+}
+
+// The documents call refraction from the screen and from baked probes cheap, and captures at run time dear with their
+// resolution. In what is counted: a baked probe and a real-time one are the same shader with the same reads, and the
+// latter adds a ray a texel of all six faces, at each run.
+TEST(Cost, aRealtimeCaptureCastsARayATexelAndABakedOneNone)
+{
+    const Cost baked = costOfTrace("capture/baked");
+    const Cost realtime = costOfTrace("capture/realtime");
+    EXPECT_EQ(baked.instructions, realtime.instructions);
+    EXPECT_EQ(baked.fetches, realtime.fetches);
+
+    const auto capturedTexels = [](int size) {
+        CaptureSettings settings;
+        settings.size = size;
+        const Cubemap cubemap = captureCubemap(Scene{}, settings);
+        return static_cast<size_t>(kCubeFaces) * static_cast<size_t>(cubemap.size) * static_cast<size_t>(cubemap.size);
+    };
+    EXPECT_EQ(capturedTexels(16), 6u * 16u * 16u);
+    EXPECT_EQ(capturedTexels(256) / capturedTexels(16), 256u); // sixteen times the side
 }
