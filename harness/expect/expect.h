@@ -25,7 +25,7 @@ struct SurfacePoint {
     glm::dvec3 toEyeWS{0.0};  // unit
     int primitive = -1;       // of the scene; -1 in recorded data
     // Metres, with the multiplier, where the case has a thickness map; else the material's.
-    std::optional<double> thickness;
+    std::optional<double> thickness{};
 };
 
 // What the expectations of one case are computed from; made once a case and shared by all backends. Surfaces,
