@@ -12,7 +12,7 @@ file(REMOVE_RECURSE ${SCRATCH})
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${SCRATCH}/installed --component shaders)
 file(RENAME ${SCRATCH}/installed ${SCRATCH}/moved)
 
-run(${CMAKE_COMMAND} -S ${CONSUMER} -B ${SCRATCH}/build -D CMAKE_PREFIX_PATH=${SCRATCH}/moved)
+run(${CMAKE_COMMAND} -G Ninja -S ${CONSUMER} -B ${SCRATCH}/build -D CMAKE_PREFIX_PATH=${SCRATCH}/moved)
 run(${CMAKE_COMMAND} --build ${SCRATCH}/build)
 foreach(variant vulkan opengl)
   if(NOT EXISTS ${SCRATCH}/build/water_${variant}.spv)
@@ -21,7 +21,7 @@ foreach(variant vulkan opengl)
 endforeach()
 
 # Another version is no match: the package says which it is.
-execute_process(COMMAND ${CMAKE_COMMAND} -S ${CONSUMER} -B ${SCRATCH}/wrong -D CMAKE_PREFIX_PATH=${SCRATCH}/nowhere
+execute_process(COMMAND ${CMAKE_COMMAND} -G Ninja -S ${CONSUMER} -B ${SCRATCH}/wrong -D CMAKE_PREFIX_PATH=${SCRATCH}/nowhere
                 RESULT_VARIABLE code OUTPUT_QUIET ERROR_QUIET)
 if(code EQUAL 0)
   message(FATAL_ERROR "the consumer found a package other than the one that was installed")
