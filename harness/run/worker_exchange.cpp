@@ -136,6 +136,7 @@ WorkerProcess::Answer WorkerProcess::exchange(const std::optional<FrameKind>& re
     Outgoing outgoing(request, payload);
     Incoming incoming;
     bool accepts = true; // the request: a worker that stops reading may still have something to say
+    bool taken = false;
     try {
         while (true) {
             if (accepts && !outgoing.isDone()) accepts = outgoing.advance(request_.get());
@@ -143,19 +144,24 @@ WorkerProcess::Answer WorkerProcess::exchange(const std::optional<FrameKind>& re
                                  {logPipe_.get(), POLLIN, 0},
                                  {accepts && !outgoing.isDone() ? request_.get() : -1, POLLOUT, 0}};
             const int ready = ::poll(watched, 3, millisecondsUntil(deadline));
-            if (ready < 0 && errno != EINTR) return {ExchangeEnd::kDied, {}, {}};
+            if (ready < 0 && errno != EINTR) return {ExchangeEnd::kDied, {}, {}, taken};
             if (ready > 0 && watched[1].revents != 0) {
                 drainLog();
                 if ((watched[1].revents & POLLHUP) != 0) logPipe_.reset(); // else poll would return at once for ever
             }
             if (ready > 0 && watched[0].revents != 0) {
-                if (!incoming.advance(reply_.get())) return {ExchangeEnd::kDied, {}, {}};
-                if (incoming.isDone()) return {ExchangeEnd::kAnswered, incoming.take(), {}};
+                if (!incoming.advance(reply_.get())) return {ExchangeEnd::kDied, {}, {}, taken};
+                if (incoming.isDone()) {
+                    Frame frame = incoming.take();
+                    if (frame.kind != FrameKind::kTaken) return {ExchangeEnd::kAnswered, std::move(frame), {}, true};
+                    taken = true;
+                    incoming = Incoming();
+                }
             }
-            if (Clock::now() >= deadline) return {ExchangeEnd::kTimeout, {}, {}};
+            if (Clock::now() >= deadline) return {ExchangeEnd::kTimeout, {}, {}, taken};
         }
     } catch (const InputError& error) {
-        return {ExchangeEnd::kGarbage, {}, error.what()};
+        return {ExchangeEnd::kGarbage, {}, error.what(), taken};
     }
 }
 

@@ -38,7 +38,7 @@ void checkFrameHeader(const FrameHeader& header)
 {
     if (header.mark != kFrameMark) throw InputError(fmt::format("malformed frame: mark {:08x}", header.mark));
     if (header.kind < static_cast<uint32_t>(FrameKind::kGreeting) ||
-        header.kind > static_cast<uint32_t>(FrameKind::kUnknownProgram)) {
+        header.kind > static_cast<uint32_t>(FrameKind::kTaken)) {
         throw InputError(fmt::format("malformed frame: kind {}", header.kind));
     }
     if (header.length > kMaxFrameBytes) throw InputError(fmt::format("malformed frame: {} bytes", header.length));

@@ -18,6 +18,7 @@ enum class FrameKind : uint32_t {
     kShaderError,      // worker: text
     kEnvironmentError, // worker: text
     kUnknownProgram,   // worker: nothing; the job is to be sent again with all its code
+    kTaken,            // worker: nothing; the job has arrived whole, what happens from here on is its doing
 };
 
 struct FrameHeader {

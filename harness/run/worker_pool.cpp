@@ -66,7 +66,8 @@ class Worker {
 
   private:
     std::optional<JobReport> start(); // a report when it failed
-    JobReport exchangeJob(const Job& job, Clock::time_point deadline, double timeoutSeconds);
+    // Nothing when the process died before it had read the whole job: `blames` makes that the job's crash.
+    std::optional<JobReport> exchangeJob(const Job& job, std::chrono::duration<double> timeout, bool blames);
     JobReport reportLoss(WorkerProcess::Answer answer, double timeoutSeconds);
     void drop();
 
@@ -148,15 +149,17 @@ std::optional<JobReport> Worker::start()
     return report;
 }
 
-JobReport Worker::exchangeJob(const Job& job, Clock::time_point deadline, double timeoutSeconds)
+std::optional<JobReport> Worker::exchangeJob(const Job& job, std::chrono::duration<double> timeout, bool blames)
 {
+    const Clock::time_point deadline = deadlineAfter(timeout);
     JobEncoding encoding{greeting_.precision, programFormOf(backend_), &programs_};
     WorkerProcess::Answer answer = process_->exchange(FrameKind::kJob, encodeJob(job, encoding), deadline);
     if (answer.end == ExchangeEnd::kAnswered && answer.frame.kind == FrameKind::kUnknownProgram) {
         programs_.clear();
         answer = process_->exchange(FrameKind::kJob, encodeJob(job, encoding), deadline);
     }
-    if (answer.end != ExchangeEnd::kAnswered) return reportLoss(std::move(answer), timeoutSeconds);
+    if (answer.end == ExchangeEnd::kDied && !answer.taken && !blames) return std::nullopt;
+    if (answer.end != ExchangeEnd::kAnswered) return reportLoss(std::move(answer), timeout.count());
     for (const ProgramSource& program : job.programs) {
         if (!program.key.empty()) programs_.insert(program.key);
     }
@@ -166,7 +169,7 @@ JobReport Worker::exchangeJob(const Job& job, Clock::time_point deadline, double
         try {
             report.result = decodeResult(answer.frame.payload);
         } catch (const InputError& error) {
-            return reportLoss({ExchangeEnd::kGarbage, {}, error.what()}, timeoutSeconds);
+            return reportLoss({ExchangeEnd::kGarbage, {}, error.what(), true}, timeout.count());
         }
         break;
     case FrameKind::kShaderError:
@@ -180,7 +183,7 @@ JobReport Worker::exchangeJob(const Job& job, Clock::time_point deadline, double
         drop();
         break;
     default:
-        return reportLoss({ExchangeEnd::kGarbage, {}, "an answer of another kind"}, timeoutSeconds);
+        return reportLoss({ExchangeEnd::kGarbage, {}, "an answer of another kind", true}, timeout.count());
     }
     return report;
 }
@@ -188,12 +191,22 @@ JobReport Worker::exchangeJob(const Job& job, Clock::time_point deadline, double
 JobReport Worker::run(const Job& job, std::chrono::duration<double> timeout)
 {
     const std::lock_guard lock(running_);
-    if (std::optional<JobReport> failed = start()) return *failed;
-    process_->log().clear(); // what it said before is not this job's
-    const Clock::time_point begin = Clock::now();
-    JobReport report = exchangeJob(job, deadlineAfter(timeout), timeout.count());
-    report.milliseconds = millisecondsSince(begin);
-    return report;
+    // A process that is killed between two jobs may still look alive when the next one is handed over. What dies before
+    // it has read the job was not killed by it; a second one in a row may have been (too large to be read, say).
+    std::optional<JobReport> report;
+    for (const bool blames : {false, true}) {
+        if (std::optional<JobReport> failed = start()) return *failed;
+        process_->log().clear(); // what it said before is not this job's
+        const Clock::time_point begin = Clock::now();
+        report = exchangeJob(job, timeout, blames);
+        if (report) {
+            report->milliseconds = millisecondsSince(begin);
+            break;
+        }
+        process_->kill(kDeathGrace);
+        drop();
+    }
+    return *report;
 }
 
 Fingerprint Worker::open()

@@ -73,12 +73,13 @@ class WorkerProcess {
     WorkerProcess(const WorkerProcess&) = delete;
     WorkerProcess& operator=(const WorkerProcess&) = delete;
 
-    // Sends a frame (nothing when `request` is empty) and waits for one. After any end but kAnswered the process is to
-    // be disposed of by kill().
+    // Sends a frame (nothing when `request` is empty) and waits for one, past the word that the former was taken. After
+    // any end but kAnswered the process is to be disposed of by kill().
     struct Answer {
         ExchangeEnd end = ExchangeEnd::kDied;
         Frame frame;
-        std::string text; // what was wrong with the frame
+        std::string text;   // what was wrong with the frame
+        bool taken = false; // the request had arrived whole before this end
     };
     Answer exchange(const std::optional<FrameKind>& request, std::span<const std::byte> payload, Deadline deadline);
 

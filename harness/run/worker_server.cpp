@@ -93,6 +93,7 @@ int serveJobs(int requestFd, int replyFd, const std::function<std::unique_ptr<De
     ProgramStore store;
     while (const std::optional<Frame> frame = readFrame(requestFd)) {
         if (frame->kind != FrameKind::kJob) throw InputError("malformed request: a worker answers jobs alone");
+        if (!writeFrame(replyFd, FrameKind::kTaken, std::string{})) break;
         if (!answer(replyFd, *device, store, frame->payload)) break;
     }
     return 0;

@@ -208,6 +208,33 @@ TEST(WorkerPool, killedBetweenJobsHarmsNone)
     EXPECT_EQ(pool.run("test", 0, jobOf("fine"), 10s).outcome, JobOutcome::kDone);
 }
 
+TEST(WorkerPool, killedBeforeItHasReadTheJobHarmsNone)
+{
+    WorkerPool pool(testOptions());
+    for (const bool isLarge : {false, true}) { // a small job waits in the pipe, a large one is stuck half way
+        const int process = processOf(pool);
+        ::kill(process, SIGSTOP); // it looks alive, and reads nothing
+        std::thread killer([process] {
+            std::this_thread::sleep_for(50ms);
+            ::kill(process, SIGKILL);
+        });
+        Job job = jobOf("fine");
+        if (isLarge) job.buffers = {{BufferKind::kUniform, std::vector<std::byte>(size_t{8} << 20), 0}};
+        const JobReport report = pool.run("test", 0, job, 10s);
+        killer.join();
+        EXPECT_EQ(report.outcome, JobOutcome::kDone) << report.text;
+        EXPECT_NE(processOf(pool), process);
+    }
+}
+
+TEST(WorkerPool, deathAtEachJobsArrivalIsItsCrash)
+{
+    WorkerPool pool(testOptions());
+    const JobReport report = pool.run("deaf", 0, jobOf("fine"), 10s);
+    EXPECT_EQ(report.outcome, JobOutcome::kCrash);
+    EXPECT_EQ(report.text, "exit code 8");
+}
+
 TEST(WorkerPool, killedDuringAJobIsThatJobsCrash)
 {
     WorkerPool pool(testOptions());

@@ -1,6 +1,8 @@
 // A worker for the tests of the pool: with the real devices, and with one that misbehaves on demand, told by a job's
 // label.
 #include "harness/base/error.h"
+#include "harness/run/job_codec.h"
+#include "harness/run/worker_frame.h"
 #include "harness/run/worker_pool.h"
 #include "harness/run/worker_server.h"
 
@@ -11,6 +13,7 @@
 #include <cstring>
 #include <map>
 #include <memory>
+#include <poll.h>
 #include <sched.h>
 #include <string>
 #include <sys/resource.h>
@@ -140,6 +143,13 @@ int main(int argc, char** argv)
     if (backend == "early-death") {
         std::fprintf(stderr, "this driver cannot even start\n");
         return 6;
+    }
+    if (backend == "deaf") { // ends when a job arrives, before it has read it
+        const TestDevice device(backend, replyFd);
+        writeFrame(replyFd, FrameKind::kGreeting, encodeGreeting({device.fingerprint(), device.precision()}));
+        pollfd watched{std::atoi(options["--request-fd"].c_str()), POLLIN, 0};
+        ::poll(&watched, 1, -1);
+        return 8;
     }
     if (!backend.starts_with("test") && backend != "refusing") {
         return runWorker(backend, std::atoi(options["--request-fd"].c_str()), replyFd, validation);
