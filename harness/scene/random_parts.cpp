@@ -16,6 +16,14 @@ glm::dvec3 drawColor(RandomStream& random)
     return {r, g, b};
 }
 
+glm::dvec3 drawPoint(RandomStream& random, const glm::dvec3& low, const glm::dvec3& high)
+{
+    const double x = random.next(low.x, high.x);
+    const double y = random.next(low.y, high.y);
+    const double z = random.next(low.z, high.z);
+    return {x, y, z};
+}
+
 double distanceToSolid(const Primitive& solid, const glm::dvec3& positionWS)
 {
     const glm::dvec3 local = glm::transpose(solid.worldFromLocal) * (positionWS - solid.center);
@@ -54,6 +62,21 @@ bool isClear(const Scene& scene, const glm::dvec3& eyeWS, int vault)
         if ((static_cast<int>(i) == vault ? -distance : distance) < kEyeClearance) return false;
     }
     return true;
+}
+
+Camera drawCamera(RandomStream& random, const Scene& scene, const CameraRegion& region, int width, int height,
+                  int vault)
+{
+    glm::dvec3 eyeWS;
+    do {
+        eyeWS = drawPoint(random, region.eyeLow, region.eyeHigh);
+    } while (!isClear(scene, eyeWS, vault));
+    const glm::dvec3 targetWS = drawPoint(random, region.targetLow, region.targetHigh);
+    Camera camera;
+    camera.worldFromView = makeLookAt(eyeWS, targetWS, {0, 1, 0});
+    camera.width = width;
+    camera.height = height;
+    return camera;
 }
 
 } // namespace crossray

@@ -17,4 +17,14 @@ Primitive makeWall(const glm::dvec3& center, const glm::dvec3& xAxis, const glm:
 // -1: none.
 bool isClear(const Scene& scene, const glm::dvec3& eyeWS, int vault = -1);
 
+// Where a generator's camera may stand, and where it may look.
+struct CameraRegion {
+    glm::dvec3 eyeLow, eyeHigh, targetLow, targetHigh;
+};
+
+// A camera whose eye is clear of the scene, looking at a target; the image's size moves nothing. The region must be far
+// larger than what the scene's objects fill.
+Camera drawCamera(RandomStream& random, const Scene& scene, const CameraRegion& region, int width, int height,
+                  int vault = -1);
+
 } // namespace crossray

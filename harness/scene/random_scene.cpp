@@ -94,21 +94,8 @@ Camera makeRandomRoomCamera(uint64_t seed, int width, int height)
 {
     const Scene scene = makeRandomRoom(seed);
     RandomStream random(seed ^ kCameraStream);
-    glm::dvec3 eyeWS;
-    do { // the region is far larger than what 14 objects can fill
-        eyeWS.x = random.next(-3.5, 5.0);
-        eyeWS.y = random.next(0.4, 4.5);
-        eyeWS.z = random.next(3.5, 7.0);
-    } while (!isClear(scene, eyeWS));
-    glm::dvec3 targetWS;
-    targetWS.x = random.next(-1.5, 1.5);
-    targetWS.y = random.next(0.2, 1.2);
-    targetWS.z = random.next(-2.5, 0.5);
-    Camera camera;
-    camera.worldFromView = makeLookAt(eyeWS, targetWS, {0, 1, 0});
-    camera.width = width;
-    camera.height = height;
-    return camera;
+    const CameraRegion region{{-3.5, 0.4, 3.5}, {5.0, 4.5, 7.0}, {-1.5, 0.2, -2.5}, {1.5, 1.2, 0.5}};
+    return drawCamera(random, scene, region, width, height);
 }
 
 } // namespace crossray

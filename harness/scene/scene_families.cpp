@@ -230,21 +230,8 @@ Camera makeRandomSceneCamera(SceneFamily family, uint64_t seed, int width, int h
     const Scene scene = makeRandomScene(family, seed);
     const int vault = family == SceneFamily::kCurvedHall ? kVault : -1;
     RandomStream random(seed ^ kCameraStream);
-    glm::dvec3 eyeWS;
-    do {
-        eyeWS.x = random.next(-3.5, 3.5);
-        eyeWS.y = random.next(0.6, 3.5);
-        eyeWS.z = random.next(3.0, 6.5);
-    } while (!isClear(scene, eyeWS, vault));
-    glm::dvec3 targetWS;
-    targetWS.x = random.next(-1.5, 1.5);
-    targetWS.y = random.next(0.2, 1.2);
-    targetWS.z = random.next(-3.0, 0.5);
-    Camera camera;
-    camera.worldFromView = makeLookAt(eyeWS, targetWS, {0, 1, 0});
-    camera.width = width;
-    camera.height = height;
-    return camera;
+    const CameraRegion region{{-3.5, 0.6, 3.0}, {3.5, 3.5, 6.5}, {-1.5, 0.2, -3.0}, {1.5, 1.2, 0.5}};
+    return drawCamera(random, scene, region, width, height, vault);
 }
 
 } // namespace crossray

@@ -14,31 +14,12 @@ using namespace CROSSRAY_SHADER_NAMESPACE;
 using shaderTest::box;
 using shaderTest::plane;
 using shaderTest::sphere;
-using Shapes = std::vector<shaderTest::Shape>;
+
+#include "tests/shader/room.h"
 
 namespace {
 
 const HizSettings kFine(0, 99, 4096, Real(0.2));
-const Real kHalfFov = Real(0.5235987755982988); // 30 degrees
-
-Shapes floorAndWall()
-{
-    return {plane({0, -1, 0}, {0, 1, 0}), plane({0, 0, -8}, {0, 0, 1})};
-}
-Shapes room()
-{
-    Shapes shapes = floorAndWall();
-    shapes.push_back(plane({-4, 0, 0}, {1, 0, 0}));
-    shapes.push_back(box({1, -0.5, -5}, {0.5, 0.5, 0.5}));
-    shapes.push_back(sphere({-1, 0, -4}, 0.6));
-    shapes.push_back(box({0.3, 0, -3}, {0.03, 1, 0.03}));
-    return shapes;
-}
-View roomView(int width, int height, int depth = 1, bool orthographic = false)
-{
-    return makeView(vec2(ivec2(width, height)), orthographic ? Real(2.5) : kHalfFov, Real(0.1), 100, depth,
-                    orthographic, vec3(0, Real(0.3), 1), Real(0.1), Real(-0.15));
-}
 vec3 direction(Real x, Real y, Real z)
 {
     return normalize(vec3(x, y, z));

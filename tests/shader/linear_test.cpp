@@ -26,35 +26,16 @@ using namespace CROSSRAY_SHADER_NAMESPACE;
 using shaderTest::box;
 using shaderTest::plane;
 using shaderTest::sphere;
-using Shapes = std::vector<shaderTest::Shape>;
+
+#include "tests/shader/room.h"
 
 namespace {
-
-const Real kHalfFov = Real(0.5235987755982988); // 30 degrees
 
 LinearSettings byStride(Real stride, Real bias = Real(0.2), int bisections = 0)
 {
     return LinearSettings(stride, 0, 4096, bias, bisections);
 }
 
-Shapes floorAndWall()
-{
-    return {plane({0, -1, 0}, {0, 1, 0}), plane({0, 0, -8}, {0, 0, 1})};
-}
-Shapes room()
-{
-    Shapes shapes = floorAndWall();
-    shapes.push_back(plane({-4, 0, 0}, {1, 0, 0}));
-    shapes.push_back(box({1, -0.5, -5}, {0.5, 0.5, 0.5}));
-    shapes.push_back(sphere({-1, 0, -4}, 0.6));
-    shapes.push_back(box({0.3, 0, -3}, {0.03, 1, 0.03}));
-    return shapes;
-}
-View roomView(int width, int height, bool orthographic = false)
-{
-    return makeView(vec2(ivec2(width, height)), orthographic ? Real(2.5) : kHalfFov, Real(0.1), 100, 1, orthographic,
-                    vec3(0, Real(0.3), 1), Real(0.1), Real(-0.15));
-}
 View straightView(int width, int height)
 {
     return makeView(vec2(ivec2(width, height)), kHalfFov, Real(0.1), 100, 1);
@@ -101,7 +82,7 @@ TEST(ShaderLinear, FindsWhatTheScreenShowsWithinAStride)
 {
     const View view = roomView(227, 128);
     for (const bool orthographic : {false, true}) {
-        const View seen = orthographic ? roomView(227, 128, true) : view;
+        const View seen = orthographic ? roomView(227, 128, 1, true) : view;
         const Census flat = traceAll(seen, floorAndWall(), byStride(1), 3);
         // The rest meets the floor before the eye, where a pixel of it is as deep as it is far, or within its own
         // pixel.

@@ -1,5 +1,6 @@
 // The shader library as GLSL: each file compiles alone, keeps to the rules of shaders/README.md, and costs nothing for
 // the hooks that a release leaves empty.
+#include "harness/base/temporary_folder.h"
 #include "harness/base/error.h"
 #include "harness/compile/compile.h"
 
@@ -50,13 +51,6 @@ std::string stripComments(const std::string& text)
 
 class ShaderLibrary : public testing::Test {
   protected:
-    void SetUp() override
-    {
-        folder_ = fs::temp_directory_path() / ("crossray_library_" + std::to_string(getpid()));
-        fs::create_directories(folder_);
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-
     CompiledShader compile(const std::string& text, const fs::path& root = kShaders)
     {
         const fs::path file = folder_ / "wrapper.comp";
@@ -78,7 +72,8 @@ class ShaderLibrary : public testing::Test {
                        root);
     }
 
-    fs::path folder_;
+    TemporaryFolder temporary_{"library"};
+    const fs::path folder_ = temporary_.path();
     ShaderCompiler compiler_{fs::path()};
 };
 

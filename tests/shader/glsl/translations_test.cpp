@@ -1,5 +1,6 @@
 // The library and the passes in the languages of other engines: each library file is OpenGL GLSL 4.50 and ESSL 3.10 as
 // it stands, and each pass becomes ESSL, HLSL and MSL.
+#include "harness/base/temporary_folder.h"
 #include "harness/compile/compile.h"
 
 #include <gtest/gtest.h>
@@ -28,13 +29,6 @@ std::vector<fs::path> filesBelow(const fs::path& folder, const std::string& exte
 
 class Translations : public testing::Test {
   protected:
-    void SetUp() override
-    {
-        folder_ = fs::temp_directory_path() / ("crossray_translations_" + std::to_string(getpid()));
-        fs::create_directories(folder_);
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-
     // What glslangValidator says to a compute shader that includes the file; empty when it is content.
     std::string validate(const fs::path& file, const std::string& version, const std::string& body = "")
     {
@@ -55,7 +49,8 @@ class Translations : public testing::Test {
         return {std::istreambuf_iterator<char>(stream), {}};
     }
 
-    fs::path folder_;
+    TemporaryFolder temporary_{"translations"};
+    const fs::path folder_ = temporary_.path();
 };
 
 } // namespace

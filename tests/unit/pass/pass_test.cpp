@@ -2,6 +2,7 @@
 
 #include "harness/backend/cpu/cpu_device.h"
 #include "harness/pass/params.h"
+#include "tests/unit/pass/floor_case.h"
 
 #include <gtest/gtest.h>
 
@@ -10,25 +11,6 @@ using namespace crossray;
 namespace {
 
 const std::filesystem::path kShaders = std::filesystem::path(CROSSRAY_SOURCE_DIR) / "shaders";
-
-// A mirror floor under a camera, with a wall behind it, at an odd size.
-Case makeFloorCase(std::vector<std::string> outputs)
-{
-    Case testCase;
-    testCase.name = "test/floor";
-    testCase.camera.width = 37;
-    testCase.camera.height = 23;
-    testCase.camera.worldFromView = makeLookAt({0, 2, 5}, {0, 0.5, -2}, {0, 1, 0});
-    Primitive floor;
-    floor.worldFromLocal = glm::dmat3(glm::dvec3(1, 0, 0), glm::dvec3(0, 0, -1), glm::dvec3(0, 1, 0));
-    floor.material = "mirror";
-    Primitive wall;
-    wall.center = {0, 0, -6};
-    testCase.scene.primitives = {floor, wall};
-    for (const std::string& name : outputs)
-        testCase.outputs.push_back(*findOutput(name));
-    return testCase;
-}
 
 Job makeJob(const Case& testCase, Precision precision)
 {

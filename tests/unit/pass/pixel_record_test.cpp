@@ -2,12 +2,13 @@
 #include "harness/pass/pixel_record.h"
 
 #include "harness/backend/cpu/cpu_device.h"
+#include "harness/base/temporary_folder.h"
+#include "tests/unit/pass/floor_case.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <regex>
-#include <unistd.h>
 
 using namespace crossray;
 namespace fs = std::filesystem;
@@ -23,27 +24,15 @@ ShaderCompiler& sharedCompiler()
     return compiler;
 }
 
-// A mirror floor under a camera, with a wall behind it, at an odd size.
-Case makeFloorCase(ProjectionModel model)
+// The floor with every output that the record holds too.
+Case makeRecordedCase(ProjectionModel model)
 {
-    Case testCase;
-    testCase.name = "test/floor";
-    testCase.camera.width = 37;
-    testCase.camera.height = 23;
-    testCase.camera.worldFromView = makeLookAt({0, 2, 5}, {0, 0.5, -2}, {0, 1, 0});
-    Primitive floor;
-    floor.worldFromLocal = glm::dmat3(glm::dvec3(1, 0, 0), glm::dvec3(0, 0, -1), glm::dvec3(0, 1, 0));
-    floor.material = "mirror";
-    Primitive wall;
-    wall.center = {0, 0, -6};
-    testCase.scene.primitives = {floor, wall};
+    Case testCase = makeFloorCase({"RayDirWS", "RayOriginWS", "HitSuccess", "HitReason", "HitDepth", "TracingModel",
+                                   "IterationCount", "MaxUsedMipLevel", "IntersectionKind", "HitWeight", "SampledColor",
+                                   "Confidence"});
     testCase.projection.model = model;
     testCase.projection.hiz = {0, 6, 256, 0.25};
     testCase.projection.proxy.halfExtents = {6, 6, 6};
-    for (const char* name :
-         {"RayDirWS", "RayOriginWS", "HitSuccess", "HitReason", "HitDepth", "TracingModel", "IterationCount",
-          "MaxUsedMipLevel", "IntersectionKind", "HitWeight", "SampledColor", "Confidence"})
-        testCase.outputs.push_back(*findOutput(name));
     return testCase;
 }
 
@@ -83,14 +72,6 @@ void expectAgreement(const PixelRecord& record, const std::map<std::string, Plan
     EXPECT_EQ(record.confidence, planes.at("Confidence").at(x, y));
 }
 
-fs::path copyShaders()
-{
-    const fs::path copy = fs::temp_directory_path() / ("crossray_record_" + std::to_string(getpid()));
-    fs::remove_all(copy);
-    fs::copy(kShaders, copy, fs::copy_options::recursive);
-    return copy;
-}
-
 // Replaces in a file; fails where nothing is replaced.
 void replaceIn(const fs::path& file, const std::string& pattern, const std::string& text)
 {
@@ -115,7 +96,7 @@ TEST(PixelRecord, saysWhatThePlanesSay)
 {
     for (const ProjectionModel model :
          {ProjectionModel::kHiz, ProjectionModel::kPatches, ProjectionModel::kProxyBox, ProjectionModel::kNone}) {
-        const CaseData data(makeFloorCase(model));
+        const CaseData data(makeRecordedCase(model));
         for (const Precision precision : {Precision::kFloat, Precision::kDouble}) {
             const auto planes = runPlanes(data, precision);
             for (const glm::ivec2 pixel :
@@ -127,7 +108,7 @@ TEST(PixelRecord, saysWhatThePlanesSay)
 
 TEST(PixelRecord, headerHoldsTheRayAsItSetsOut)
 {
-    const CaseData data(makeFloorCase(ProjectionModel::kHiz));
+    const CaseData data(makeRecordedCase(ProjectionModel::kHiz));
     const PixelRecord record = recordPixel(data, Precision::kDouble, {18, 17});
     EXPECT_TRUE(record.isTraced);
     EXPECT_EQ(record.hitClass, HitClass::kHit);
@@ -150,7 +131,7 @@ TEST(PixelRecord, headerHoldsTheRayAsItSetsOut)
 
 TEST(PixelRecord, stepsFollowTheRayThroughTheDepthBuffer)
 {
-    const CaseData data(makeFloorCase(ProjectionModel::kHiz));
+    const CaseData data(makeRecordedCase(ProjectionModel::kHiz));
     const PixelRecord record = recordPixel(data, Precision::kDouble, {11, 19});
     ASSERT_EQ(record.hitClass, HitClass::kHit);
     ASSERT_EQ(static_cast<int>(record.steps.size()), record.iterations);
@@ -181,7 +162,7 @@ TEST(PixelRecord, stepsFollowTheRayThroughTheDepthBuffer)
 
 TEST(PixelRecord, aProxyHasADistanceAndNoSteps)
 {
-    const CaseData data(makeFloorCase(ProjectionModel::kProxyInfinite));
+    const CaseData data(makeRecordedCase(ProjectionModel::kProxyInfinite));
     const PixelRecord record = recordPixel(data, Precision::kDouble, {11, 19});
     EXPECT_EQ(record.model, ProjectionModel::kProxyInfinite);
     EXPECT_TRUE(record.meetsProxy);
@@ -191,7 +172,7 @@ TEST(PixelRecord, aProxyHasADistanceAndNoSteps)
 
 TEST(PixelRecord, stepsBeyondItsRoomAreCounted)
 {
-    const CaseData data(makeFloorCase(ProjectionModel::kHiz));
+    const CaseData data(makeRecordedCase(ProjectionModel::kHiz));
     const PixelRecord whole = recordPixel(data, Precision::kFloat, {11, 19});
     const PixelRecord cut = recordPixel(data, Precision::kFloat, {11, 19}, 3);
     ASSERT_GT(whole.iterations, 3);
@@ -203,7 +184,7 @@ TEST(PixelRecord, stepsBeyondItsRoomAreCounted)
 
 TEST(PixelRecord, aPixelThatTracesNothingSaysSo)
 {
-    const CaseData data(makeFloorCase(ProjectionModel::kHiz));
+    const CaseData data(makeRecordedCase(ProjectionModel::kHiz));
     const PixelRecord record = recordPixel(data, Precision::kFloat, {18, 0}); // the wall
     EXPECT_FALSE(record.isTraced);
     EXPECT_EQ(record.hitClass, HitClass::kNoRaycast);
@@ -212,7 +193,7 @@ TEST(PixelRecord, aPixelThatTracesNothingSaysSo)
 
 TEST(PixelRecord, pixelsOutsideTheImageAreRefused)
 {
-    const CaseData data(makeFloorCase(ProjectionModel::kHiz));
+    const CaseData data(makeRecordedCase(ProjectionModel::kHiz));
     for (const glm::ivec2 pixel : {glm::ivec2(37, 0), glm::ivec2(0, 23), glm::ivec2(-1, 0), glm::ivec2(0, -1)})
         EXPECT_THROW(recordPixel(data, Precision::kFloat, pixel), InputError);
     EXPECT_THROW(readRecord({0, 0}, JobResult{}), EnvironmentError);
@@ -220,17 +201,18 @@ TEST(PixelRecord, pixelsOutsideTheImageAreRefused)
 
 TEST(PixelRecord, aReleaseHasNothingOfIt)
 {
-    const fs::path copy = copyShaders();
+    const TemporaryFolder folder("record");
+    const fs::path copy = folder.path() / "shaders";
+    fs::copy(kShaders, copy, fs::copy_options::recursive);
     for (const char* file : {"projection.glsl", "screen_trace.glsl"})
         replaceIn(copy / "pass" / file, "\n +record[A-Za-z]+\\([^;]*\\);", "\n");
     replaceIn(copy / "pass/pixel_record.glsl", "\\{\n    recordStep[^;]*;\n\\}", "{\n}");
     replaceIn(copy / "pass/screen_trace.glsl", "\n[^\n]*kRecordPixel == 1 && [^\n]*return;", "");
     replaceIn(copy / "pass/screen_trace.glsl", "kRecordPixel == 1 \\? [^:]*: invocation", "invocation");
     for (const ProjectionModel model : {ProjectionModel::kHiz, ProjectionModel::kPatches, ProjectionModel::kProxyBox}) {
-        const CaseData data(prepareForRecord(makeFloorCase(model)));
+        const CaseData data(prepareForRecord(makeRecordedCase(model)));
         const size_t release = countTraceInstructions(data, kShaders, false);
         EXPECT_EQ(release, countTraceInstructions(data, copy, false));
         EXPECT_NE(release, countTraceInstructions(data, kShaders, true));
     }
-    fs::remove_all(copy);
 }
