@@ -1,6 +1,7 @@
 #include "harness/run/worker_pool.h"
 
 #include "harness/base/error.h"
+#include "harness/base/temporary_folder.h"
 #include "harness/run/worker_backends.h"
 #include "harness/run/worker_process.h"
 
@@ -239,11 +240,14 @@ TEST(WorkerPool, killedDuringAJobIsThatJobsCrash)
 {
     WorkerPool pool(testOptions());
     const int process = processOf(pool);
-    std::thread killer([process] {
-        std::this_thread::sleep_for(50ms);
+    const TemporaryFolder folder("killed");
+    const std::filesystem::path sign = folder.path() / "runs";
+    std::thread killer([&] {
+        while (!std::filesystem::exists(sign))
+            std::this_thread::sleep_for(1ms);
         ::kill(process, SIGKILL);
     });
-    const JobReport report = pool.run("test", 0, jobOf("sleep 5000"), 10s);
+    const JobReport report = pool.run("test", 0, jobOf("sign " + sign.string()), 10s);
     killer.join();
     EXPECT_EQ(report.outcome, JobOutcome::kCrash);
     EXPECT_EQ(report.text, "signal 9 (Killed)");
@@ -319,11 +323,11 @@ TEST(WorkerPool, workersRunAtTheSameTime)
     std::vector<std::thread> threads;
     for (int core = 0; core < 3; ++core) {
         threads.emplace_back(
-            [&pool, core] { EXPECT_EQ(pool.run("test", core, jobOf("sleep 300"), 10s).outcome, JobOutcome::kDone); });
+            [&pool, core] { EXPECT_EQ(pool.run("test", core, jobOf("sleep 1000"), 10s).outcome, JobOutcome::kDone); });
     }
     for (std::thread& thread : threads)
         thread.join();
-    EXPECT_LT(std::chrono::steady_clock::now() - begin, 800ms);
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, 2500ms); // one after the other: 3 s
     EXPECT_EQ(pool.processIds("test").size(), 3u);
 }
 

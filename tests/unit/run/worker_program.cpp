@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <map>
 #include <memory>
 #include <poll.h>
@@ -112,6 +113,10 @@ class TestDevice : public Device {
             JobResult result;
             result.readbacks.push_back({static_cast<double>(::getpid())});
             return result;
+        }
+        if (what.starts_with("sign ")) { // makes a file, to say that it runs, and then takes its time
+            std::ofstream(what.substr(5)).close();
+            std::this_thread::sleep_for(std::chrono::seconds(5));
         }
         if (what.starts_with("sleep "))
             std::this_thread::sleep_for(std::chrono::milliseconds(std::atoi(what.c_str() + 6)));
