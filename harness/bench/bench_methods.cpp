@@ -29,9 +29,7 @@ ProxyVolume boundScene(const Scene& scene)
 {
     glm::dvec3 low(kNoLimit), high(-kNoLimit);
     for (const Primitive& primitive : scene.primitives) {
-        glm::dvec3 reach =
-            primitive.shape == PrimitiveShape::kSphere ? glm::dvec3(primitive.radius) : primitive.halfExtents;
-        if (primitive.shape == PrimitiveShape::kPlane) reach.z = 0;
+        const glm::dvec3 reach = localHalfExtents(primitive);
         if (std::max({reach.x, reach.y, reach.z}) >= kNoLimit) continue;
         glm::dvec3 extent(0.0);
         for (int axis = 0; axis < 3; ++axis)

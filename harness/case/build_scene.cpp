@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <system_error>
+#include <tuple>
 #include <utility>
 
 namespace crossray {
@@ -47,17 +48,40 @@ void refuseKey(const TableReader& table, std::string_view key, std::string_view 
     }
 }
 
-void buildExtents(const TableReader& table, Primitive& primitive)
+// What is round: a sphere, a lens, a torus.
+void buildRound(const TableReader& table, Primitive& primitive)
 {
     const std::string& shape = table.text("shape");
-    if (primitive.shape == PrimitiveShape::kSphere) {
-        requireKey(table, "radius", shape);
-        refuseKey(table, "half_extents", shape);
-        primitive.radius = table.number("radius");
-        return;
+    requireKey(table, "radius", shape);
+    refuseKey(table, "half_extents", shape);
+    primitive.radius = table.number("radius");
+    // Keys of one shape alone: a key, its shape, its largest value, and whether the shape requires it.
+    const std::tuple<const char*, PrimitiveShape, double, bool, double*> own[] = {
+        {"thickness", PrimitiveShape::kLens, 2 * primitive.radius, true, &primitive.thickness},
+        {"tube_radius", PrimitiveShape::kTorus, primitive.radius, true, &primitive.tubeRadius},
+        {"wall", PrimitiveShape::kSphere, primitive.radius, false, &primitive.wall}};
+    for (const auto& [key, owner, most, isRequired, value] : own) {
+        if (primitive.shape != owner) {
+            refuseKey(table, key, shape);
+            continue;
+        }
+        if (isRequired) requireKey(table, key, shape);
+        if (!table.has(key)) continue;
+        *value = table.number(key);
+        if (*value < most || (owner == PrimitiveShape::kLens && *value == most)) continue;
+        throw InputError(table.position(key), fmt::format("\"{}\" is {}; above 0 and below {}, by the radius of {}, is "
+                                                          "allowed",
+                                                          key, *value, most, primitive.radius));
     }
-    refuseKey(table, "radius", shape);
+}
+
+void buildExtents(const TableReader& table, Primitive& primitive)
+{
     const bool isBox = primitive.shape == PrimitiveShape::kBox;
+    if (!isBox && primitive.shape != PrimitiveShape::kPlane) return buildRound(table, primitive);
+    const std::string& shape = table.text("shape");
+    for (const std::string_view key : {"radius", "thickness", "tube_radius", "wall"})
+        refuseKey(table, key, shape);
     if (isBox) requireKey(table, "half_extents", shape);
     const std::vector<double> extents = table.numbers("half_extents");
     const size_t allowed = isBox ? 3 : 2;

@@ -162,9 +162,9 @@ std::vector<KeySpec> sceneKeys()
         Key("scene.sky", "horizon", kVec3).atLeast(0).byDefault("[0.75, 0.85, 0.95]").says("At a right angle to up."),
         Key("scene.sky", "nadir", kVec3).atLeast(0).byDefault("[0.2, 0.18, 0.16]").says("Straight down."),
         Key("scene.primitives", "shape", kChoice)
-            .oneOf({"plane", "sphere", "box"})
+            .oneOf({"plane", "sphere", "box", "lens", "torus"})
             .required()
-            .says("A plane is the local x-y plane, its normal local +z."),
+            .says("A plane is the local x-y plane, its normal local +z; the axis of a lens and of a torus is local z."),
         Key("scene.primitives", "center", kVec3).byDefault("[0, 0, 0]").says("Position, metres."),
         Key("scene.primitives", "rotation", kRotation)
             .withoutIt("none")
@@ -176,7 +176,22 @@ std::vector<KeySpec> sceneKeys()
             .above(0)
             .withoutIt("without bounds (plane); required (box)")
             .says("Plane: local x and y; box: all three; metres."),
-        Key("scene.primitives", "radius", kNumber).above(0).withoutIt("required (sphere)").says("Sphere, metres."),
+        Key("scene.primitives", "radius", kNumber)
+            .above(0)
+            .withoutIt("required (sphere, lens, torus)")
+            .says("Sphere; lens: of both its faces; torus: from its middle to the middle of the tube; metres."),
+        Key("scene.primitives", "thickness", kNumber)
+            .above(0)
+            .withoutIt("required (lens)")
+            .says("Lens: metres along its axis, at most twice the radius."),
+        Key("scene.primitives", "tube_radius", kNumber)
+            .above(0)
+            .withoutIt("required (torus)")
+            .says("Torus: metres, less than the radius."),
+        Key("scene.primitives", "wall", kNumber)
+            .above(0)
+            .withoutIt("none: solid")
+            .says("Sphere of glass: metres of glass around air, a bubble; less than the radius."),
         Key("scene.primitives", "pattern", kChoice)
             .oneOf({"solid", "checker", "gradient"})
             .byDefault("\"solid\"")

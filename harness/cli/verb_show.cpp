@@ -26,6 +26,10 @@ std::string_view nameOf(PrimitiveShape shape)
         return "sphere";
     case PrimitiveShape::kBox:
         return "box";
+    case PrimitiveShape::kLens:
+        return "lens";
+    case PrimitiveShape::kTorus:
+        return "torus";
     }
     return "";
 }
@@ -80,6 +84,24 @@ std::string formatCamera(const Camera& camera)
                        convention, camera.ndcDepthRange == NdcDepthRange::kZeroToOne ? "[0,1]" : "[-1,1]");
 }
 
+std::string formatSize(const Primitive& primitive)
+{
+    switch (primitive.shape) {
+    case PrimitiveShape::kPlane:
+        return "";
+    case PrimitiveShape::kSphere:
+        return fmt::format(", radius {:g} m", primitive.radius) +
+               (primitive.wall > 0.0 ? fmt::format(", wall {:g} m", primitive.wall) : "");
+    case PrimitiveShape::kBox:
+        return ", half extents " + formatVector(primitive.halfExtents);
+    case PrimitiveShape::kLens:
+        return fmt::format(", radius {:g} m, thickness {:g} m", primitive.radius, primitive.thickness);
+    case PrimitiveShape::kTorus:
+        return fmt::format(", radius {:g} m, tube radius {:g} m", primitive.radius, primitive.tubeRadius);
+    }
+    return "";
+}
+
 void printScene(const Case& testCase)
 {
     if (testCase.recorded) {
@@ -91,11 +113,8 @@ void printScene(const Case& testCase)
     }
     const char* label = "scene";
     for (const Primitive& primitive : testCase.scene.primitives) {
-        std::string size;
-        if (primitive.shape == PrimitiveShape::kSphere) size = fmt::format(", radius {:g} m", primitive.radius);
-        if (primitive.shape == PrimitiveShape::kBox) size = ", half extents " + formatVector(primitive.halfExtents);
-        fmt::print("{:<10} {} at {}{}, {}\n", label, nameOf(primitive.shape), formatVector(primitive.center), size,
-                   primitive.material);
+        fmt::print("{:<10} {} at {}{}, {}\n", label, nameOf(primitive.shape), formatVector(primitive.center),
+                   formatSize(primitive), primitive.material);
         label = "";
     }
     if (testCase.scene.primitives.empty()) fmt::print("scene      nothing but the sky\n");

@@ -54,9 +54,7 @@ double coveredArea(const WorldBox& object, const WorldBox& probe)
 // The corners of a primitive's own box, or of the box around its sphere.
 void growBy(const Primitive& primitive, WorldBox& bounds)
 {
-    glm::dvec3 half = primitive.halfExtents;
-    if (primitive.shape == PrimitiveShape::kPlane) half.z = 0.0;
-    if (primitive.shape == PrimitiveShape::kSphere) half = glm::dvec3(primitive.radius);
+    const glm::dvec3 half = localHalfExtents(primitive);
     const bool turns = primitive.shape != PrimitiveShape::kSphere;
     for (int corner = 0; corner < 8; ++corner) {
         const glm::dvec3 sign(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);

@@ -9,9 +9,10 @@ glm::dvec3 reachOf(const Primitive& primitive)
 {
     if (primitive.shape == PrimitiveShape::kSphere) return glm::dvec3(primitive.radius);
     glm::dvec3 reach(0.0);
-    const int axes = primitive.shape == PrimitiveShape::kPlane ? 2 : 3;
+    const glm::dvec3 half = localHalfExtents(primitive);
+    const int axes = primitive.shape == PrimitiveShape::kPlane ? 2 : 3; // an endless plane times 0 is no number
     for (int axis = 0; axis < axes; ++axis)
-        reach += glm::abs(primitive.worldFromLocal[axis]) * primitive.halfExtents[axis];
+        reach += glm::abs(primitive.worldFromLocal[axis]) * half[axis];
     return reach;
 }
 

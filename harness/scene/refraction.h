@@ -1,4 +1,5 @@
-// Light through a clear solid by Snell's law, exactly: both interfaces of a sphere or a box.
+// Light through a clear solid by Snell's law, exactly: every interface of a sphere, a bubble, a box, a lens or a
+// torus.
 #pragma once
 
 #include "harness/scene/scene.h"
@@ -16,14 +17,15 @@ std::optional<glm::dvec3> refractDirection(const glm::dvec3& dirWS, const glm::d
 
 struct RefractedPath {
     glm::dvec3 entryWS{0.0};
-    glm::dvec3 insideDirWS{0.0}; // unit
+    glm::dvec3 insideDirWS{0.0}; // unit, behind the first interface
     glm::dvec3 exitWS{0.0};
     glm::dvec3 exitDirWS{0.0}; // unit
-    double length = 0;         // metres inside
+    double length = 0;         // metres inside the material
 };
 
-// Path of a ray that meets the solid (sphere or box, index `solid.ior`, in air) from outside at `entryWS`, where the
-// outward unit normal is `normalWS`. Nothing when either interface reflects all of it.
+// Path of a ray that meets the solid (of index `solid.ior`, in air) from outside at `entryWS`, where the outward unit
+// normal is `normalWS`, until it leaves it for good: through a bubble's air and its other wall, and through a torus as
+// often as it meets it. Nothing when an interface reflects all of it.
 std::optional<RefractedPath> refractThrough(const Primitive& solid, const glm::dvec3& entryWS,
                                             const glm::dvec3& normalWS, const glm::dvec3& dirWS);
 

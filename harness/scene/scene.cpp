@@ -1,6 +1,7 @@
 #include "harness/scene/scene.h"
 
 #include "harness/base/error.h"
+#include "harness/scene/curved_shapes.h"
 
 #include <fmt/format.h>
 
@@ -14,7 +15,7 @@ namespace {
 // this is the inner loop of every image.
 struct Crossing {
     double distance = 0;
-    int face = 0; // box: 2 * axis, + 1 for the face on the axis' positive side
+    int face = 0; // box: 2 * axis, + 1 for the face on the axis' positive side; lens: that of CurvedCrossings
 };
 
 // The half-chord comes from the ray's distance to the centre: no difference of large squares, so far spheres stay
@@ -72,6 +73,13 @@ void crossBox(const Primitive& box, const Ray& ray, const Visit& visit)
     visit(exit);
 }
 
+template <typename Visit>
+void visitAll(const CurvedCrossings& crossings, const Visit& visit)
+{
+    for (size_t i = 0; i < static_cast<size_t>(crossings.count); ++i)
+        visit(Crossing{crossings.distance[i], crossings.face[i]});
+}
+
 // Calls visit(Crossing) for each crossing in order of distance.
 template <typename Visit>
 void crossPrimitive(const Primitive& primitive, const Ray& ray, const Visit& visit)
@@ -83,6 +91,10 @@ void crossPrimitive(const Primitive& primitive, const Ray& ray, const Visit& vis
         return crossSphere(primitive, ray, visit);
     case PrimitiveShape::kBox:
         return crossBox(primitive, ray, visit);
+    case PrimitiveShape::kLens:
+        return visitAll(crossLens(primitive, ray), visit);
+    case PrimitiveShape::kTorus:
+        return visitAll(crossTorus(primitive, ray), visit);
     }
 }
 
@@ -101,6 +113,12 @@ SurfaceHit makeHit(const Primitive& primitive, int index, const Ray& ray, const 
         break;
     case PrimitiveShape::kBox:
         hit.normalWS = (crossing.face % 2 == 1 ? 1.0 : -1.0) * primitive.worldFromLocal[crossing.face / 2];
+        break;
+    case PrimitiveShape::kLens:
+        hit.normalWS = lensNormal(primitive, hit.positionWS, crossing.face);
+        break;
+    case PrimitiveShape::kTorus:
+        hit.normalWS = torusNormal(primitive, hit.positionWS);
         break;
     }
     hit.backFace = glm::dot(hit.normalWS, ray.dirWS) > 0.0;
@@ -129,8 +147,7 @@ bool isRotation(const glm::dmat3& m)
 // Extent of a gradient's axis from the centre, metres.
 double gradientHalfExtent(const Primitive& primitive)
 {
-    return primitive.shape == PrimitiveShape::kSphere ? primitive.radius
-                                                      : primitive.halfExtents[primitive.radiance.axis];
+    return localHalfExtents(primitive)[primitive.radiance.axis];
 }
 
 void validateRadiance(const Primitive& primitive, size_t number)
@@ -149,16 +166,34 @@ void validateRadiance(const Primitive& primitive, size_t number)
         rejectPrimitive(number, "a gradient over an infinite extent; allowed: a finite half extent along its axis");
 }
 
+// Spheres, lenses and tori.
+void validateRound(const Primitive& primitive, size_t number)
+{
+    if (primitive.shape == PrimitiveShape::kPlane || primitive.shape == PrimitiveShape::kBox) return;
+    if (!(primitive.radius > 0.0 && std::isfinite(primitive.radius)))
+        rejectPrimitive(number, fmt::format("radius {}; allowed: metres above 0", primitive.radius));
+    const bool isLens = primitive.shape == PrimitiveShape::kLens;
+    if (isLens && !(primitive.thickness > 0.0 && primitive.thickness <= 2 * primitive.radius))
+        rejectPrimitive(number, fmt::format("thickness {}; allowed: metres above 0, up to twice the radius of {}",
+                                            primitive.thickness, primitive.radius));
+    const bool isTorus = primitive.shape == PrimitiveShape::kTorus;
+    if (isTorus && !(primitive.tubeRadius > 0.0 && primitive.tubeRadius < primitive.radius))
+        rejectPrimitive(number, fmt::format("tube radius {}; allowed: metres above 0, below the radius of {}",
+                                            primitive.tubeRadius, primitive.radius));
+    const bool isShell = primitive.shape == PrimitiveShape::kSphere && primitive.wall != 0.0;
+    if (isShell && !(primitive.wall > 0.0 && primitive.wall < primitive.radius))
+        rejectPrimitive(number, fmt::format("wall {}; allowed: metres above 0, below the radius of {}", primitive.wall,
+                                            primitive.radius));
+}
+
 void validatePrimitive(const Primitive& primitive, size_t number)
 {
     if (!isFinite(primitive.center))
         rejectPrimitive(number, "its centre holds a NaN or an infinity; allowed: a finite point");
     if (!isRotation(primitive.worldFromLocal))
         rejectPrimitive(number, "its frame is not a rotation; allowed: orthonormal axes without a mirror image");
-    if (primitive.shape == PrimitiveShape::kSphere) {
-        if (!(primitive.radius > 0.0 && std::isfinite(primitive.radius)))
-            rejectPrimitive(number, fmt::format("radius {}; allowed: metres above 0", primitive.radius));
-    } else {
+    validateRound(primitive, number);
+    if (primitive.shape == PrimitiveShape::kPlane || primitive.shape == PrimitiveShape::kBox) {
         const int axes = primitive.shape == PrimitiveShape::kPlane ? 2 : 3;
         for (int axis = 0; axis < axes; ++axis) // infinite is allowed: an endless plane, a slab
             if (!(primitive.halfExtents[axis] > 0.0))
@@ -169,7 +204,7 @@ void validatePrimitive(const Primitive& primitive, size_t number)
     if (material != "diffuse" && material != "mirror" && material != "glass")
         rejectPrimitive(number, fmt::format("material \"{}\"; allowed: diffuse, mirror, glass", material));
     if (material == "glass" && primitive.shape == PrimitiveShape::kPlane)
-        rejectPrimitive(number, "a plane of glass has no inside; allowed: a sphere or a box");
+        rejectPrimitive(number, "a plane of glass has no inside; allowed: a sphere, a box, a lens or a torus");
     if (material == "glass" && !(primitive.ior > 0.0 && std::isfinite(primitive.ior)))
         rejectPrimitive(number, fmt::format("index of refraction {}; allowed: above 0", primitive.ior));
     if (primitive.objectIndex < 0)
@@ -209,7 +244,7 @@ std::vector<SurfaceHit> intersectPrimitive(const Primitive& primitive, const Ray
             // A ray that runs along a face can round either way; entry and exit are told by their order.
             if (primitive.shape != PrimitiveShape::kPlane) hits.back().backFace = leaves;
         }
-        leaves = true;
+        leaves = !leaves;
     });
     return hits;
 }
@@ -218,6 +253,23 @@ int objectIndexOf(const Scene& scene, int primitive)
 {
     const int own = scene.primitives[static_cast<size_t>(primitive)].objectIndex;
     return own != 0 ? own : primitive + 1;
+}
+
+glm::dvec3 localHalfExtents(const Primitive& primitive)
+{
+    switch (primitive.shape) {
+    case PrimitiveShape::kPlane:
+        return {primitive.halfExtents.x, primitive.halfExtents.y, 0.0};
+    case PrimitiveShape::kBox:
+        return primitive.halfExtents;
+    case PrimitiveShape::kSphere:
+        return glm::dvec3(primitive.radius);
+    case PrimitiveShape::kLens:
+        return {lensRimRadius(primitive), lensRimRadius(primitive), 0.5 * primitive.thickness};
+    case PrimitiveShape::kTorus:
+        return {primitive.radius + primitive.tubeRadius, primitive.radius + primitive.tubeRadius, primitive.tubeRadius};
+    }
+    return glm::dvec3(0.0);
 }
 
 glm::dvec3 computeRadiance(const Scene& scene, const SurfaceHit& hit)

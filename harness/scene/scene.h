@@ -1,5 +1,5 @@
-// Analytic scenes: plane, sphere and box primitives with closed-form unlit radiance under a gradient sky, and the
-// double-precision ray caster over them. Shares no code with the shaders.
+// Analytic scenes: plane, sphere, box, lens and torus primitives with closed-form unlit radiance under a gradient sky,
+// and the double-precision ray caster over them. Shares no code with the shaders.
 #pragma once
 
 #include "harness/scene/camera.h"
@@ -27,7 +27,8 @@ struct Radiance {
     int axis = 1;          // gradient: 0 x, 1 y, 2 z of the local frame
 };
 
-enum class PrimitiveShape { kPlane, kSphere, kBox };
+// Lens: what two spheres of one radius share, its axis the local z. Torus: a ring around the local z.
+enum class PrimitiveShape { kPlane, kSphere, kBox, kLens, kTorus };
 
 // The local frame is a rotation about `center`; scale is carried by the extents.
 struct Primitive {
@@ -35,7 +36,10 @@ struct Primitive {
     glm::dvec3 center{0.0};
     glm::dmat3 worldFromLocal{1.0};                                  // rotation
     glm::dvec3 halfExtents{std::numeric_limits<double>::infinity()}; // plane: local x and y; box: all three
-    double radius = 1.0;                                             // sphere
+    double radius = 1.0;     // sphere; lens: of its faces; torus: from the middle to the middle of the tube
+    double thickness = 0.5;  // lens: metres along the axis, at most twice the radius
+    double tubeRadius = 0.3; // torus: metres, less than the radius
+    double wall = 0.0;       // a sphere of glass: metres of it around air, a bubble; 0: glass all through
     Radiance radiance;
     std::string material = "diffuse"; // "diffuse", "mirror" (traced by reflection) or "glass" (traced by refraction)
     double ior = 1.5;                 // glass
@@ -58,7 +62,7 @@ struct Scene {
 struct SurfaceHit {
     double distance = 0; // along the unit ray, metres
     glm::dvec3 positionWS{0.0};
-    glm::dvec3 normalWS{0.0}; // unit, geometric: outward for spheres and boxes, local +z for planes
+    glm::dvec3 normalWS{0.0}; // unit, geometric: outward for solids, local +z for planes
     int primitive = -1;
     bool backFace = false; // the ray runs along the normal: it leaves a solid, or sees a plane from behind
 };
@@ -75,6 +79,9 @@ std::vector<SurfaceHit> intersectPrimitive(const Primitive& primitive, const Ray
 // Throws InputError when a number is NaN, a size is not above 0, a frame is no rotation, a material or pattern is
 // unknown or does not go with the shape (a plane of glass, a gradient over an infinite extent).
 void validateScene(const Scene& scene);
+
+// Half the size of the box around a primitive along its own axes, metres; 0 across a plane.
+glm::dvec3 localHalfExtents(const Primitive& primitive);
 
 // Object index as the G-buffer shows it: the primitive's own, or its number in the scene from 1.
 int objectIndexOf(const Scene& scene, int primitive);

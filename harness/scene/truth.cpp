@@ -15,6 +15,9 @@ namespace {
 
 // A camera ray and a traced ray end at the same point when their distances agree to this.
 constexpr double kSamePoint = 1e-6;
+// Metres after which a ray may meet something; of a torus, which may reflect itself, as a share of its radius.
+constexpr double kOffSurface = 1e-9;
+constexpr double kOffTorus = 1e-7;
 
 class Tracer {
   public:
@@ -44,10 +47,11 @@ class Tracer {
     {
         pixel.rayOriginWS = surface.positionWS;
         pixel.rayDirWS = reflectDirection(primary.dirWS, surface.normalWS);
-        // All shapes are convex: from outside none of them reflects itself. From inside a solid does.
-        const bool inside = surface.backFace &&
-                            scene_.primitives[static_cast<size_t>(surface.primitive)].shape != PrimitiveShape::kPlane;
-        finish(pixel, inside ? -1 : surface.primitive);
+        // But for the torus all shapes are convex: from outside none of them reflects itself. From inside a solid does.
+        const Primitive& mirror = scene_.primitives[static_cast<size_t>(surface.primitive)];
+        const bool inside = surface.backFace && mirror.shape != PrimitiveShape::kPlane;
+        const bool isTorus = mirror.shape == PrimitiveShape::kTorus;
+        finish(pixel, inside || isTorus ? -1 : surface.primitive, isTorus ? kOffTorus * mirror.radius : kOffSurface);
     }
 
     void refract(TruthPixel& pixel, const Ray& primary, const SurfaceHit& surface) const
@@ -62,12 +66,12 @@ class Tracer {
         pixel.rayOriginWS = path->exitWS;
         pixel.rayDirWS = path->exitDirWS;
         pixel.pathLength = path->length;
-        finish(pixel, surface.primitive);
+        finish(pixel, surface.primitive, kOffSurface);
     }
 
-    void finish(TruthPixel& pixel, int ignorePrimitive) const
+    void finish(TruthPixel& pixel, int ignorePrimitive, double minDistance) const
     {
-        const auto hit = castRay(scene_, {pixel.rayOriginWS, pixel.rayDirWS}, 1e-9, kNoLimit, ignorePrimitive);
+        const auto hit = castRay(scene_, {pixel.rayOriginWS, pixel.rayDirWS}, minDistance, kNoLimit, ignorePrimitive);
         if (!hit) {
             pixel.screen = ScreenKnowledge::kSky;
             pixel.radiance = computeSkyRadiance(scene_, pixel.rayDirWS);

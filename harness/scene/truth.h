@@ -45,8 +45,8 @@ struct Truth {
 
 // Rays start at pixels whose nearest surface has the material "mirror" (reflection) or "glass" (refraction), through
 // the pixel's centre, and end at the first surface that they meet: mirrors and glass show their own radiance there.
-// Refraction enters and leaves the same primitive (sphere or box) by exact Snell refraction, and ignores what stands
-// inside it; when either interface reflects everything, or the camera is inside the glass, the pixel has no ray.
+// Refraction enters and leaves the same primitive by exact Snell refraction (harness/scene/refraction.h), and ignores
+// what stands inside it; when an interface reflects everything, or the camera is inside the glass, the pixel has no ray.
 //
 // Visible is meant geometrically: a camera ray through the exact projected hit, not through the centre of its pixel,
 // must meet it first (distances equal to 1e-6). So a pole thinner than a pixel counts as visible although no pixel's
