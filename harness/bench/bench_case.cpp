@@ -1,6 +1,8 @@
 #include "harness/bench/bench_case.h"
 
+#include "harness/bench/family.h"
 #include "harness/bench/tracer_yardstick.h"
+#include "harness/compile/spirv_module.h"
 #include "harness/pass/pass.h"
 #include "harness/run/execute.h"
 #include "harness/run/worker_explain.h"
@@ -22,6 +24,7 @@ void setOutputs(Case& testCase)
     testCase.outputs.clear();
     std::vector<const char*> names{"RayDirWS", "HitDepth", "HitSuccess", "IterationCount", "HitPositionSS"};
     if (testCase.effect == TraceEffect::kRefraction) names.insert(names.end(), {"PathLength", "RayOriginWS"});
+    if (const BenchFamily* family = findBenchFamily(testCase.benchFamily)) names = family->outputs;
     for (const OutputInfo& output : allOutputs()) {
         if (std::find(names.begin(), names.end(), output.name) != names.end()) testCase.outputs.push_back(output);
     }
@@ -140,10 +143,29 @@ void judgeRefractions(const Truth& truth, const Answers& answers, BenchPoint& po
 struct Runner {
     Case testCase;
     Job job;
+    std::optional<Job> capture; // what stands for the cubemap that the method renders
     int scale = 1;
     JobResult last;
     std::vector<double> milliseconds;
 };
+
+// Reads as many pixels of a G-buffer and writes as many of one output as a capture has texels: what rendering it takes
+// at the least.
+Job makeCaptureJob(int size, ShaderCompiler& compiler, const Folders& folders, Precision precision)
+{
+    Case capture;
+    capture.name = fmt::format("capture {}", size);
+    capture.camera.width = size;
+    capture.camera.height = kCubeFaces * size;
+    Primitive wall;
+    wall.center = {0, 0, -1};
+    wall.material = "mirror";
+    capture.scene.primitives = {wall};
+    for (const OutputInfo& output : allOutputs()) {
+        if (output.name == "RayDirWS") capture.outputs.push_back(output);
+    }
+    return buildJob(CaseData(capture), compiler, folders.shaders, precision);
+}
 
 Runner makeRunner(const Case& testCase, const BenchMethod& method, ShaderCompiler& compiler, const Folders& folders,
                   Precision precision)
@@ -157,20 +179,32 @@ Runner makeRunner(const Case& testCase, const BenchMethod& method, ShaderCompile
     runner.testCase.camera.height = std::max(1, testCase.camera.height / method.scale);
     setOutputs(runner.testCase);
     runner.job = buildJob(CaseData(runner.testCase), compiler, folders.shaders, precision);
+    if (method.captureSize > 0) runner.capture = makeCaptureJob(method.captureSize, compiler, folders, precision);
     return runner;
+}
+
+JobResult runJob(const Job& job, const std::string& backend, WorkerPool& pool, ShaderCompiler& compiler,
+                 const Folders& folders)
+{
+    JobReport report = runExplained(pool, compiler, folders.shaders, backend, 0, job, std::chrono::seconds(120));
+    if (report.outcome == JobOutcome::kShaderError) throw ShaderError(report.text);
+    if (report.outcome != JobOutcome::kDone)
+        throw EnvironmentError(fmt::format("{} on {}: {}", job.label, backend, report.text));
+    return std::move(report.result);
+}
+
+double millisecondsOf(const JobResult& result)
+{
+    return result.times.device >= 0 ? result.times.device : result.times.dispatch;
 }
 
 void runOnce(Runner& runner, const std::string& backend, WorkerPool& pool, ShaderCompiler& compiler,
              const Folders& folders)
 {
-    JobReport report = runExplained(pool, compiler, folders.shaders, backend, 0, runner.job, std::chrono::seconds(120));
-    if (report.outcome == JobOutcome::kShaderError) throw ShaderError(report.text);
-    if (report.outcome != JobOutcome::kDone) {
-        throw EnvironmentError(fmt::format("{} on {}: {}", runner.testCase.name, backend, report.text));
-    }
-    const JobTimes& times = report.result.times;
-    runner.milliseconds.push_back(times.device >= 0 ? times.device : times.dispatch);
-    runner.last = std::move(report.result);
+    runner.last = runJob(runner.job, backend, pool, compiler, folders);
+    double milliseconds = millisecondsOf(runner.last);
+    if (runner.capture) milliseconds += millisecondsOf(runJob(*runner.capture, backend, pool, compiler, folders));
+    runner.milliseconds.push_back(milliseconds);
 }
 
 BenchTime summarize(const std::vector<double>& milliseconds, double baseline)
@@ -219,7 +253,9 @@ BenchScene benchCase(const Case& testCase, const BenchOptions& options, WorkerPo
     const bool isReflection = testCase.effect == TraceEffect::kReflection;
     BenchScene scene;
     scene.name = testCase.name;
-    scene.effect = isReflection ? "reflection" : "refraction";
+    const BenchFamily* const family = findBenchFamily(testCase.benchFamily);
+    scene.effect = family != nullptr ? family->name : isReflection ? "reflection" : "refraction";
+    scene.parameter = testCase.material.roughness;
     scene.needs = testCase.needs;
     scene.budget = testCase.budget;
     scene.width = testCase.camera.width;
@@ -233,6 +269,8 @@ BenchScene benchCase(const Case& testCase, const BenchOptions& options, WorkerPo
     const BenchMethod baseline{"", "", [](Case& varied) {
                                    varied.projection.model = ProjectionModel::kNone;
                                    varied.material.refractionModel = RefractionModel::kNone;
+                                   varied.hierarchy = 0;
+                                   varied.history.reset();
                                }};
     std::vector<Runner> runners{makeRunner(testCase, baseline, compiler, folders, precision)};
     for (const BenchMethod& method : methods)
@@ -248,7 +286,7 @@ BenchScene benchCase(const Case& testCase, const BenchOptions& options, WorkerPo
         return p.screen != ScreenKnowledge::kNoRay;
     }));
     YardstickScene rays;
-    if (isReflection) {
+    if (isReflection && family == nullptr) {
         rays = makeYardstickScene(data);
         fillScene(rays, scene);
     }
@@ -256,11 +294,15 @@ BenchScene benchCase(const Case& testCase, const BenchOptions& options, WorkerPo
         const Runner& runner = runners[i + 1];
         BenchPoint point{methods[i].name, methods[i].kind, {}, {}, summarize(runner.milliseconds, scene.baselineMs)};
         const Answers answers{readPlanes(runner.testCase, runner.last), runner.scale};
-        if (isReflection) {
+        if (family != nullptr) {
+            family->judge({data, runner.testCase, answers.planes, runner.job, methods[i]}, point);
+        } else if (isReflection) {
             judgeReflections(truth, answers, point);
             if (runner.scale == 1 && methods[i].tracer.empty()) countFetches(rays, runner.testCase.projection, point);
         } else {
             judgeRefractions(truth, answers, point);
+            const size_t instructions = countSpirvInstructions(runner.job.programs.back().spirv);
+            point.counters["Instructions"] = static_cast<double>(instructions);
         }
         scene.points.push_back(std::move(point));
     }

@@ -22,6 +22,7 @@ struct BenchMethod {
     std::function<void(Case&)> apply;
     int scale = 1;                  // 2: at half the width and height, each answer standing for four pixels
     std::filesystem::path tracer{}; // a person's own, of kind "own"
+    int captureSize = 0;            // texels a side of a cubemap that it renders each frame; 0: none
 };
 // Those that go with the case's effect: for reflections the projections, for refractions the models.
 std::vector<BenchMethod> makeBenchMethods(const Case& testCase);
@@ -36,18 +37,19 @@ struct BenchPoint {
     // By name, all so that less is better. Reflections: Wrong (missed or wrong answerable rays and claimed unanswerable
     // ones, of all rays), Missed (of the answerable), False (of the unanswerable), HitDepth (mean relative error over
     // the answerable, 1 where there is no answer), HitPositionSS (median of the right hits, pixels). Refractions:
-    // RayDirWS (mean, degrees), RayOriginWS and PathLength (mean, metres).
+    // RayDirWS (mean, degrees), RayOriginWS and PathLength (mean, metres). Those of the other families: family.h.
     std::map<std::string, double> errors;
     // Fetches and FetchesOf32 (of the depth buffer, its pyramid or a pixel's surface, a ray, and the mean over 32
-    // neighbouring rays of the largest), Iterations and IterationsOf32. Exact: they do not depend on the device's
-    // speed.
+    // neighbouring rays of the largest), Iterations and IterationsOf32; of refractions Instructions (of the SPIR-V
+    // module). Exact: they do not depend on the device's speed.
     std::map<std::string, double> counters;
     BenchTime time;
 };
 
 struct BenchScene {
-    std::string name;   // of the case
-    std::string effect; // "reflection" or "refraction"
+    std::string name;     // of the case
+    std::string effect;   // "reflection" or "refraction"; of the other families their name
+    double parameter = 0; // what the cases of one family differ in: of "glossy" the roughness
     int width = 0, height = 0;
     double rays = 0;
     double unknowable = 0;  // share of the rays whose end no screen shows

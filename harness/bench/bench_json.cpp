@@ -50,6 +50,7 @@ std::string formatBenchJson(const BenchResult& result)
             points.push_back(toJson(point));
         scenes.push_back({{"case", scene.name},
                           {"effect", scene.effect},
+                          {"parameter", scene.parameter},
                           {"size", {scene.width, scene.height}},
                           {"rays", scene.rays},
                           {"unknowable", scene.unknowable},

@@ -1,5 +1,7 @@
 #include "harness/bench/bench_case.h"
 
+#include "harness/bench/family.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -100,6 +102,7 @@ void addLinear(std::vector<BenchMethod>& methods, double thickness)
 
 std::vector<BenchMethod> makeBenchMethods(const Case& testCase)
 {
+    if (const BenchFamily* family = findBenchFamily(testCase.benchFamily)) return family->makeMethods(testCase);
     std::vector<BenchMethod> methods;
     if (testCase.effect == TraceEffect::kRefraction) {
         const std::tuple<const char*, const char*, RefractionModel> models[] = {

@@ -1,5 +1,7 @@
 #include "harness/bench/bench_report.h"
 
+#include "harness/bench/family.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,7 +18,30 @@ const std::vector<std::string>& errorNames(const std::string& effect)
 {
     static const std::vector<std::string> reflection{"Wrong", "Missed", "False", "HitDepth", "HitPositionSS"};
     static const std::vector<std::string> refraction{"RayDirWS", "RayOriginWS", "PathLength"};
+    if (const BenchFamily* family = findBenchFamily(effect)) return family->errors;
     return effect == "reflection" ? reflection : refraction;
+}
+
+struct CounterColumn {
+    const char* name;
+    const char* title;
+    int width;
+};
+
+// Counters in the order in which a table shows them.
+std::vector<CounterColumn> counterColumns(const std::string& effect)
+{
+    if (effect == "reflection")
+        return {{"Fetches", "reads", 8},
+                {"FetchesOf32", "of 32", 6},
+                {"Iterations", "steps", 8},
+                {"IterationsOf32", "of 32", 6}};
+    const BenchFamily* const family = findBenchFamily(effect);
+    if (family == nullptr) return {{"Instructions", "Instructions", 12}};
+    std::vector<CounterColumn> columns;
+    for (const std::string& name : family->counters)
+        columns.push_back({name.c_str(), name.c_str(), std::max(8, static_cast<int>(name.size()))});
+    return columns;
 }
 
 double counterOr(const BenchPoint& point, const char* name, double missing)
@@ -25,21 +50,15 @@ double counterOr(const BenchPoint& point, const char* name, double missing)
     return found == point.counters.end() ? missing : found->second;
 }
 
-bool isCheaper(const BenchPoint& a, const BenchPoint& b)
+bool isCheaper(const BenchPoint& a, const BenchPoint& b, const std::string& effect)
 {
-    const double reads = counterOr(a, "Fetches", 0) - counterOr(b, "Fetches", 0);
-    if (reads != 0) return reads < 0;
-    return counterOr(a, "Iterations", 0) < counterOr(b, "Iterations", 0);
-}
-
-std::string idOf(const std::string& name)
-{
-    std::string id = name;
-    for (char& c : id) {
-        const bool isPlain = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
-        if (!isPlain) c = '_';
+    std::vector<std::string> costs{"Fetches", "Iterations"};
+    if (const BenchFamily* family = findBenchFamily(effect)) costs = family->costs;
+    for (const std::string& cost : costs) {
+        const double more = counterOr(a, cost.c_str(), 0) - counterOr(b, cost.c_str(), 0);
+        if (more != 0) return more < 0;
     }
-    return id;
+    return false;
 }
 
 const BenchPoint* findPoint(const BenchScene& scene, const std::string& method)
@@ -105,7 +124,7 @@ const BenchPoint* chooseMethod(const BenchScene& scene, const std::vector<Budget
             }
             return found->second <= term.bound;
         });
-        if (isKept && (best == nullptr || isCheaper(point, *best))) best = &point;
+        if (isKept && (best == nullptr || isCheaper(point, *best, scene.effect))) best = &point;
     }
     return best;
 }
@@ -122,19 +141,22 @@ std::string formatBenchTable(const BenchScene& scene)
     text += fmt::format("{:<40}", "method");
     for (const std::string& name : errorNames(scene.effect))
         text += fmt::format(" {:>13}", name);
-    const bool counts = scene.effect == "reflection";
-    if (counts) text += fmt::format(" {:>8} {:>6} {:>8} {:>6}", "reads", "of 32", "steps", "of 32");
+    const std::vector<CounterColumn> columns = counterColumns(scene.effect);
+    for (const CounterColumn& column : columns)
+        text += fmt::format(" {:>{}}", column.title, column.width);
     text += fmt::format(" {:>9} {:>19} {:>7}\n", "ms", "fastest to slowest", "ratio");
     for (const BenchPoint& point : scene.points) {
         text += fmt::format("{:<40}", point.method);
         for (const std::string& name : errorNames(scene.effect))
             text += fmt::format(" {:>13.6g}", point.errors.at(name));
-        for (const char* name : {"Fetches", "FetchesOf32", "Iterations", "IterationsOf32"}) {
-            if (!counts) continue;
-            const bool isWide = std::string_view(name).size() < 11;
-            const double value = counterOr(point, name, -1);
-            const std::string shown = value < 0 ? "-" : fmt::format("{:.1f}", value);
-            text += isWide ? fmt::format(" {:>8}", shown) : fmt::format(" {:>6}", shown);
+        for (const CounterColumn& column : columns) {
+            const double value = counterOr(point, column.name, -1);
+            const bool isWhole = value >= 0 && value == std::floor(value) && scene.effect != "reflection";
+            const std::string shown =
+                value < 0 ? "-"
+                : isWhole ? fmt::format("{:.0f}", value)
+                          : fmt::format("{:.{}f}", value, value < 10 && scene.effect != "reflection" ? 3 : 1);
+            text += fmt::format(" {:>{}}", shown, column.width);
         }
         text += fmt::format(" {:>9.3f} {:>8.3f} to {:>7.3f} {:>7.2f}\n", point.time.median, point.time.fastest,
                             point.time.slowest, point.time.ratio);
@@ -146,41 +168,40 @@ std::vector<Chart> makeBenchCharts(const BenchResult& result)
 {
     std::vector<Chart> charts;
     const std::string device = result.fingerprint.device;
+    std::map<std::string, std::vector<const BenchScene*>> families;
     for (const BenchScene& scene : result.scenes) {
-        const std::string time =
-            fmt::format("time over that of reading the G-buffer and writing the outputs ({})", device);
-        if (scene.effect == "reflection") {
-            Chart wrong{"projection_" + idOf(scene.name),
-                        "Projection: " + scene.name,
-                        time,
-                        "share of all rays that are answered wrongly",
-                        {}};
-            Chart reads{"projection_reads_" + idOf(scene.name),
-                        "Projection: " + scene.name,
-                        "reads of the depth buffer or its pyramid, a ray",
-                        "share of all rays that are answered wrongly",
-                        {}};
-            for (const BenchPoint& point : scene.points) {
-                wrong.points.push_back({point.method, point.time.ratio, point.errors.at("Wrong")});
-                if (point.counters.contains("Fetches"))
-                    reads.points.push_back({point.method, point.counters.at("Fetches"), point.errors.at("Wrong")});
-            }
-            reads.points.push_back({"what the depth buffer shows", 1, scene.oracleWrong, true});
-            charts.insert(charts.end(), {wrong, reads});
+        if (findBenchFamily(scene.effect) != nullptr) {
+            families[scene.effect].push_back(&scene);
             continue;
         }
-        const std::pair<const char*, const char*> axes[] = {{"RayDirWS", "exit direction, mean error in degrees"},
-                                                            {"RayOriginWS", "exit position, mean error in metres"}};
-        for (const auto& [name, label] : axes) {
-            Chart chart{fmt::format("refraction_{}_{}", idOf(scene.name), name),
-                        "Refraction model: " + scene.name,
-                        time,
-                        label,
-                        {}};
-            for (const BenchPoint& point : scene.points)
-                chart.points.push_back({point.method, point.time.ratio, point.errors.at(name)});
-            charts.push_back(std::move(chart));
+        if (scene.effect == "refraction") {
+            const std::vector<Chart> models = makeRefractionModelCharts(scene, device);
+            charts.insert(charts.end(), models.begin(), models.end());
+            continue;
         }
+        const std::string time =
+            fmt::format("time over that of reading the G-buffer and writing the outputs ({})", device);
+        Chart wrong{"projection_" + chartIdOf(scene.name),
+                    "Projection: " + scene.name,
+                    time,
+                    "share of all rays that are answered wrongly",
+                    {}};
+        Chart reads{"projection_reads_" + chartIdOf(scene.name),
+                    "Projection: " + scene.name,
+                    "reads of the depth buffer or its pyramid, a ray",
+                    "share of all rays that are answered wrongly",
+                    {}};
+        for (const BenchPoint& point : scene.points) {
+            wrong.points.push_back({point.method, point.time.ratio, point.errors.at("Wrong")});
+            if (point.counters.contains("Fetches"))
+                reads.points.push_back({point.method, point.counters.at("Fetches"), point.errors.at("Wrong")});
+        }
+        reads.points.push_back({"what the depth buffer shows", 1, scene.oracleWrong, true});
+        charts.insert(charts.end(), {wrong, reads});
+    }
+    for (const auto& [name, scenes] : families) {
+        const std::vector<Chart> made = findBenchFamily(name)->makeCharts(scenes, device);
+        charts.insert(charts.end(), made.begin(), made.end());
     }
     return charts;
 }

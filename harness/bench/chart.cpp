@@ -115,6 +115,10 @@ class Labels {
     {
         taken_.push_back({x - radius, y - radius, x + radius, y + radius});
     }
+    void blockLine(double x0, double y0, double x1, double y1)
+    {
+        taken_.push_back({std::min(x0, x1) - 1, std::min(y0, y1) - 1, std::max(x0, x1) + 1, std::max(y0, y1) + 1});
+    }
     std::string add(double x, double y, const std::string& text, const char* color)
     {
         const double width = kTextWidth * static_cast<double>(text.size());
@@ -201,10 +205,16 @@ struct Placed {
     bool isOnFront;
 };
 
-std::string drawFront(std::vector<Placed> placed)
+std::vector<Placed> sortFront(std::vector<Placed> placed)
 {
     std::erase_if(placed, [](const Placed& p) { return !p.isOnFront; });
     std::sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) { return a.x < b.x; });
+    return placed;
+}
+
+std::string drawFront(const std::vector<Placed>& all)
+{
+    const std::vector<Placed> placed = sortFront(all);
     if (placed.size() < 2) return "";
     std::string path = fmt::format("M{:.1f} {:.1f}", placed[0].x, placed[0].y);
     for (size_t i = 1; i < placed.size(); ++i) // what is reached at a cost stays reached until the next point
@@ -219,6 +229,11 @@ std::string drawPoints(const std::vector<Placed>& placed)
     std::string svg;
     for (const Placed& p : placed)
         labels.block(p.x, p.y, 5);
+    const std::vector<Placed> steps = sortFront(placed);
+    for (size_t i = 1; i < steps.size(); ++i) {
+        labels.blockLine(steps[i - 1].x, steps[i - 1].y, steps[i].x, steps[i - 1].y);
+        labels.blockLine(steps[i].x, steps[i - 1].y, steps[i].x, steps[i].y);
+    }
     for (const bool front : {true, false}) { // the front's names have the first choice of places
         for (const Placed& p : placed) {
             if (p.isOnFront != front) continue;

@@ -67,6 +67,13 @@ std::array<float, 3> toFloats(const glm::dvec3& v)
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
+KernelRay makeKernelRay(const YardstickRay& ray)
+{
+    KernelRay made{ray.x, ray.y, toFloats(ray.dirWS), ray.originWS.has_value(), {}};
+    if (ray.originWS) made.originWS = toFloats(*ray.originWS);
+    return made;
+}
+
 struct PatchKernelSettings {
     int maxIterations = kMaxIterations;
     float caution = 0;
@@ -77,17 +84,14 @@ Tracer preparePatches(const YardstickScene& scene, const PatchKernelSettings& se
     const auto depthError = static_cast<float>(scene.depthError);
     loadPatchTracer(makeTracerImage(scene), depthError);
     return [settings, depthError](const YardstickRay& ray) {
-        return makeAnswer(
-            tracePatchRay(ray.x, ray.y, toFloats(ray.dirWS), settings.maxIterations, settings.caution, depthError));
+        return makeAnswer(tracePatchRay(makeKernelRay(ray), settings.maxIterations, settings.caution, depthError));
     };
 }
 
 Tracer prepareHiz(const YardstickScene& scene, const HizKernelSettings& settings)
 {
     loadHizTracer(makeTracerImage(scene));
-    return [settings](const YardstickRay& ray) {
-        return makeAnswer(traceHizRay(ray.x, ray.y, toFloats(ray.dirWS), settings));
-    };
+    return [settings](const YardstickRay& ray) { return makeAnswer(traceHizRay(makeKernelRay(ray), settings)); };
 }
 
 } // namespace
@@ -117,6 +121,10 @@ std::optional<Tracer> caseTracer(const Projection& projection, const YardstickSc
     if (projection.model == ProjectionModel::kHiz) {
         const HizSettings& hiz = projection.hiz;
         return prepareHiz(scene, {hiz.minLevel, hiz.maxLevel, hiz.maxIterations, static_cast<float>(hiz.depthBias)});
+    }
+    if (projection.model == ProjectionModel::kPatches) {
+        const PatchSettings& patches = projection.patches;
+        return preparePatches(scene, {patches.maxIterations, static_cast<float>(patches.caution)});
     }
     return std::nullopt;
 }

@@ -38,13 +38,18 @@ bool isTracerImageLoaded(uint64_t serial);
 void loadPatchTracer(const TracerImage& image, float depthError);
 void loadHizTracer(const TracerImage& image);
 
-// From the surface at a pixel's centre along a direction in world space.
-KernelAnswer tracePatchRay(int x, int y, std::array<float, 3> dirWS, int maxIterations, float caution,
-                           float depthError);
+// Along a direction in world space, from the surface at a pixel's centre unless it starts elsewhere.
+struct KernelRay {
+    int x = 0, y = 0;
+    std::array<float, 3> dirWS{};
+    bool startsElsewhere = false;
+    std::array<float, 3> originWS{};
+};
+KernelAnswer tracePatchRay(const KernelRay& ray, int maxIterations, float caution, float depthError);
 struct HizKernelSettings {
     int minLevel = 0, maxLevel = 6, maxIterations = 512;
     float depthBias = 0; // metres
 };
-KernelAnswer traceHizRay(int x, int y, std::array<float, 3> dirWS, const HizKernelSettings& settings);
+KernelAnswer traceHizRay(const KernelRay& ray, const HizKernelSettings& settings);
 
 } // namespace crossray

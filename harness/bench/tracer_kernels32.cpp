@@ -143,6 +143,17 @@ vec3 surfacePositionWS(ivec2 pixel)
     return positionWSFromSS(loadedView, vec2(pixel) + 0.5, linearDepth);
 }
 
+vec3 rayOriginWS(const crossray::KernelRay& ray)
+{
+    if (ray.startsElsewhere) return vec3(ray.originWS[0], ray.originWS[1], ray.originWS[2]);
+    return surfacePositionWS(ivec2(ray.x, ray.y));
+}
+
+vec3 rayDirWS(const crossray::KernelRay& ray)
+{
+    return vec3(ray.dirWS[0], ray.dirWS[1], ray.dirWS[2]);
+}
+
 #include "harness/backend/cpu/glsl_end.h"
 
 namespace crossray {
@@ -174,12 +185,12 @@ void loadHizTracer(const TracerImage& image)
         [](ivec2 cell, int) { return reduceDepthPyramidCell(cell); });
 }
 
-KernelAnswer tracePatchRay(int x, int y, std::array<float, 3> dirWS, int maxIterations, float caution, float depthError)
+KernelAnswer tracePatchRay(const KernelRay& ray, int maxIterations, float caution, float depthError)
 {
-    const vec3 origin = surfacePositionWS(ivec2(x, y));
+    const vec3 origin = rayOriginWS(ray);
     fetchCount = 0;
-    const PatchTraceResult r = tracePatches(loadedView, origin, vec3(dirWS[0], dirWS[1], dirWS[2]),
-                                            PatchTracerSettings(31, maxIterations, caution, depthError));
+    const PatchTraceResult r =
+        tracePatches(loadedView, origin, rayDirWS(ray), PatchTracerSettings(31, maxIterations, caution, depthError));
     return {r.hitClass == kHitClassHit,
             r.reason == kHitReasonIterationCap,
             r.positionSS.x,
@@ -190,12 +201,12 @@ KernelAnswer tracePatchRay(int x, int y, std::array<float, 3> dirWS, int maxIter
             r.iterations};
 }
 
-KernelAnswer traceHizRay(int x, int y, std::array<float, 3> dirWS, const HizKernelSettings& settings)
+KernelAnswer traceHizRay(const KernelRay& ray, const HizKernelSettings& settings)
 {
-    const vec3 origin = surfacePositionWS(ivec2(x, y));
+    const vec3 origin = rayOriginWS(ray);
     fetchCount = 0;
     const TraceResult r =
-        traceHiz(loadedView, origin, vec3(dirWS[0], dirWS[1], dirWS[2]),
+        traceHiz(loadedView, origin, rayDirWS(ray),
                  HizSettings(settings.minLevel, settings.maxLevel, settings.maxIterations, settings.depthBias));
     return {r.hitClass == kHitClassHit,
             r.reason == kHitReasonIterationCap,

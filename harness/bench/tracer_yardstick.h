@@ -27,8 +27,9 @@ struct YardstickRay {
     int x = 0, y = 0; // the pixel at whose centre it starts
     glm::dvec3 dirWS{0.0};
     RayTruth truth = RayTruth::kNothing;
-    glm::dvec2 hitPositionSS{0.0}; // answerable and hidden
-    double hitLinearDepth = 0;     // metres
+    glm::dvec2 hitPositionSS{0.0};        // answerable and hidden
+    double hitLinearDepth = 0;            // metres
+    std::optional<glm::dvec3> originWS{}; // where it starts, of a refraction; nothing: at the pixel's surface
 };
 
 struct YardstickScene {
@@ -62,7 +63,8 @@ YardstickScene makeYardstickScene(SceneFamily family, uint64_t seed, int width, 
                                   Disturbance disturbance = Disturbance::kNone);
 YardstickScene makeYardstickRoom(uint64_t seed, int width, int height, int stride = 4);
 
-// A case's own scene, recorded ones too: the rays are those of its truth.
+// A case's own scene, recorded ones too: the rays are those of its truth, reflected or refracted, and the G-buffer is
+// what its screen shows. The library's tracers alone know rays that start elsewhere than at their pixel.
 YardstickScene makeYardstickScene(const CaseData& data);
 
 // What a tracer says of one ray.

@@ -219,7 +219,8 @@ YardstickScene makeYardstickRoom(uint64_t seed, int width, int height, int strid
 YardstickScene makeYardstickScene(const CaseData& data)
 {
     YardstickScene made;
-    made.gbuffer = data.gbuffer();
+    made.gbuffer = data.screen();
+    const bool isRefraction = data.testCase().effect == TraceEffect::kRefraction;
     made.serial = nextSerial();
     const Truth& truth = data.truth();
     for (int y = 0; y < truth.height; ++y) {
@@ -228,6 +229,7 @@ YardstickScene makeYardstickScene(const CaseData& data)
             if (pixel.screen == ScreenKnowledge::kNoRay) continue;
             made.rays.push_back(
                 {x, y, pixel.rayDirWS, truthOf(pixel.screen), pixel.hitPositionSS, pixel.hitLinearDepth});
+            if (isRefraction) made.rays.back().originWS = pixel.rayOriginWS;
         }
     }
     return made;

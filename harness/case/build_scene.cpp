@@ -188,6 +188,12 @@ void buildScene(const TableReader& top, Case& testCase)
         throw InputError(scene.position("up"), "\"up\" has length 0; any other length is allowed");
     }
     testCase.scene.upWS = glm::normalize(testCase.scene.upWS);
+    testCase.screenLayer = static_cast<ScreenLayer>(scene.choice("screen"));
+    if (testCase.screenLayer == ScreenLayer::kOpaque && testCase.projection.model == ProjectionModel::kLinear) {
+        throw InputError(scene.position("screen"),
+                         "\"screen\" is \"opaque\" and the model is \"linear\", which reads the "
+                         "pixels' own depths; the other models are allowed");
+    }
     const TableReader sky = scene.table("sky");
     testCase.scene.sky = {readVec3(sky, "zenith"), readVec3(sky, "horizon"), readVec3(sky, "nadir")};
     if (scene.has("generator")) {

@@ -159,6 +159,7 @@ struct Case {
     Scene scene; // empty when a recorded G-buffer is given
     std::optional<RecordedGBuffer> recorded;
     TraceEffect effect = TraceEffect::kReflection;
+    ScreenLayer screenLayer = ScreenLayer::kAll; // of an analytic scene
     Material material;
     Projection projection;
     std::optional<History> history; // without it colour is read from this frame
@@ -174,6 +175,7 @@ struct Case {
     std::vector<KnownFailure> knownFailures;
     bool mustFail = false; // passes when the judge fails it on every backend: proof of the ruler
     double timeoutSeconds = 20;
+    std::string benchFamily; // methods that `crossray bench` measures; empty: those that go with the effect
     std::string needs;  // kind of method that its scene needs to keep `budget`, for the bench; empty: no claim
     std::string budget; // "HitDepth<=0.01"
 };

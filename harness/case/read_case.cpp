@@ -167,6 +167,7 @@ void buildTop(const TableReader& top, Case& testCase)
     testCase.backends = top.texts("backends");
     testCase.timeoutSeconds = top.number("timeout");
     testCase.mustFail = top.boolean("must_fail");
+    if (top.has("bench")) testCase.benchFamily = top.text("bench");
     if (top.has("needs") != top.has("budget")) {
         throw InputError(top.position(top.has("needs") ? "needs" : "budget"),
                          "\"needs\" and \"budget\" stand together; both or neither are allowed");

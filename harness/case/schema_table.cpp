@@ -47,8 +47,13 @@ std::vector<KeySpec> topKeys()
         Key("", "must_fail", kBoolean)
             .byDefault("false")
             .says("Passes when the judge fails the case on every backend."),
+        Key("", "bench", kChoice)
+            .oneOf({"projection", "refraction_models", "refraction_techniques", "glossy", "depth_formats"})
+            .withoutIt("projection for reflections, refraction_models for refractions")
+            .says("Family of methods that `crossray bench` measures on the case's scene."),
         Key("", "needs", kChoice)
-            .oneOf({"proxy", "linear", "hiz", "patches", "none", "thin", "box", "sphere"})
+            .oneOf({"proxy", "linear", "hiz", "patches", "none", "thin", "box", "sphere", "screen", "baked", "realtime",
+                    "approximate", "exact", "depth16", "depth24", "depth32"})
             .withoutIt("no claim")
             .says("The cheapest kind of method that keeps budget; `crossray bench` fails the case when another does."),
         Key("", "budget", kString)
@@ -153,6 +158,11 @@ std::vector<KeySpec> sceneKeys()
             .atMost(1000000000)
             .byDefault("1")
             .says("Of the generator: the same seed is the same scene on every machine."),
+        Key("scene", "screen", kChoice)
+            .oneOf({"all", "opaque"})
+            .byDefault("\"all\"")
+            .says("What rays are traced in, depth and colour: every surface, or those that are not of glass, as where "
+                  "what is transparent is drawn last."),
         Key("scene", "primitives", kTableList).byDefault("[]").says("Primitives as inline tables."),
         Key("scene", "primitive", kTableList)
             .byDefault("[]")

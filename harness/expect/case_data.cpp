@@ -116,7 +116,7 @@ std::vector<SurfacePoint> readSurfaces(const GBuffer& gbuffer, const std::vector
 
 Truth makeTruth(const Case& testCase, const GBuffer& gbuffer)
 {
-    if (!testCase.recorded) return computeTruth(testCase.scene, testCase.camera, testCase.effect);
+    if (!testCase.recorded) return computeTruth(testCase.scene, testCase.camera, testCase.effect, testCase.screenLayer);
     const RecordedGBuffer& recorded = *testCase.recorded;
     if (recorded.truthFile.empty()) {
         throw InputError(testCase.position,
@@ -148,6 +148,8 @@ CaseData::CaseData(const Case& testCase)
                                 : findTracedPixels(testCase.scene, gbuffer_, testCase.effect)),
       lazy_(std::make_unique<Lazy>())
 {
+    if (testCase.screenLayer == ScreenLayer::kOpaque)
+        opaque_ = renderGBuffer(makeOpaqueScene(testCase.scene), testCase.camera, channelsFor(testCase));
     if (testCase.history) history_ = makeFrameHistory(testCase);
     if (testCase.material.thicknessMap) thicknessMap_ = makeThicknessMap(testCase);
 }

@@ -40,6 +40,8 @@ class CaseData {
 
     const Case& testCase() const { return testCase_; }
     const GBuffer& gbuffer() const { return gbuffer_; }
+    // What rays are traced in: the G-buffer, or that of what is opaque (depth, normal, and colour where it has one).
+    const GBuffer& screen() const { return opaque_ ? *opaque_ : gbuffer_; }
 
     // Pixels that trace a ray: those whose nearest surface is a mirror (reflection) or glass (refraction), in recorded
     // data those of the traced object (any surface when it is 0).
@@ -68,6 +70,7 @@ class CaseData {
 
     Case testCase_;
     GBuffer gbuffer_;
+    std::optional<GBuffer> opaque_;
     std::vector<bool> traced_;
     std::optional<FrameHistory> history_;
     std::optional<Plane> thicknessMap_;

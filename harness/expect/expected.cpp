@@ -206,7 +206,7 @@ bool isBeforeSurface(const QuantityInput& input, size_t pixel, double linearDept
 
 glm::dvec3 ownColor(const CaseData& data, size_t pixel)
 {
-    const double* color = &data.gbuffer().plane(GBufferChannel::kColor).values[pixel * 3];
+    const double* color = &data.screen().plane(GBufferChannel::kColor).values[pixel * 3];
     return {color[0], color[1], color[2]};
 }
 

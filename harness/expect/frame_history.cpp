@@ -37,7 +37,9 @@ Plane renderColor(const Case& testCase)
 {
     const History& history = *testCase.history;
     constexpr std::array kChannels{GBufferChannel::kColor};
-    GBuffer frame = renderGBuffer(makePreviousScene(testCase), history.camera, kChannels);
+    Scene scene = makePreviousScene(testCase);
+    if (testCase.screenLayer == ScreenLayer::kOpaque) scene = makeOpaqueScene(scene);
+    GBuffer frame = renderGBuffer(scene, history.camera, kChannels);
     Plane color = std::move(frame.planes.at(GBufferChannel::kColor));
     if (history.poison == HistoryPoison::kNone) return color;
     for (int y = 0; y < color.height; ++y)
@@ -47,8 +49,22 @@ Plane renderColor(const Case& testCase)
     return color;
 }
 
+// The primitives of the scene that the screen shows, by their numbers in the whole one.
+std::vector<int> findShown(const Case& testCase)
+{
+    std::vector<int> shown;
+    for (size_t i = 0; i < testCase.scene.primitives.size(); ++i) {
+        const bool isGlass = testCase.scene.primitives[i].material == "glass";
+        if (!isGlass || testCase.screenLayer == ScreenLayer::kAll) shown.push_back(static_cast<int>(i));
+    }
+    return shown;
+}
+
 Plane computeMotion(const Case& testCase)
 {
+    const bool isOpaque = testCase.screenLayer == ScreenLayer::kOpaque;
+    const Scene scene = isOpaque ? makeOpaqueScene(testCase.scene) : testCase.scene;
+    const std::vector<int> shown = findShown(testCase);
     const Camera& camera = testCase.camera;
     const CameraFrame now(camera), previous(testCase.history->camera);
     Plane motion("Motion", camera.width, camera.height, 2, std::numeric_limits<double>::quiet_NaN());
@@ -56,9 +72,10 @@ Plane computeMotion(const Case& testCase)
         for (int x = 0; x < camera.width; ++x) {
             const glm::dvec2 centerSS(x + 0.5, y + 0.5);
             const Ray ray = now.primaryRay(centerSS);
-            const auto hit = castPrimaryRay(testCase.scene, now, ray);
-            const auto then = hit ? findPreviousUV(testCase, previous, hit->positionWS, hit->primitive)
-                                  : findPreviousUV(testCase, previous, ray.originWS + kSkyDistance * ray.dirWS, -1);
+            const auto hit = castPrimaryRay(scene, now, ray);
+            const auto then =
+                hit ? findPreviousUV(testCase, previous, hit->positionWS, shown[static_cast<size_t>(hit->primitive)])
+                    : findPreviousUV(testCase, previous, ray.originWS + kSkyDistance * ray.dirWS, -1);
             if (!then) continue;
             const glm::dvec2 moved = centerSS / glm::dvec2(camera.width, camera.height) - *then;
             motion.at(x, y, 0) = moved.x;

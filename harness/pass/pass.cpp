@@ -133,8 +133,8 @@ class JobBuilder {
             bindings.push_back(addImage(kThicknessBinding, imageFromPlane(*thickness)));
         bindings.push_back(
             addBuffer(kParamsBinding, uniformBuffer(makePassParams(testCase, levels_, precision_, query))));
-        if (data_.gbuffer().planes.contains(GBufferChannel::kColor)) {
-            bindings.push_back(addImage(kColorBinding, imageFromPlane(data_.gbuffer().plane(GBufferChannel::kColor))));
+        if (data_.screen().planes.contains(GBufferChannel::kColor)) {
+            bindings.push_back(addImage(kColorBinding, imageFromPlane(data_.screen().plane(GBufferChannel::kColor))));
         }
         bindings.push_back(addImage(kMaskBinding, makeTraceMask()));
         if (pyramid_) bindings.push_back(*pyramid_);
@@ -205,9 +205,20 @@ Job buildTraceJob(const CaseData& data, ShaderCompiler& compiler, const std::fil
         builder.addImage(kDepthBinding, imageFromPlane(data.gbuffer().plane(GBufferChannel::kDeviceDepth)));
     const Binding normal =
         builder.addImage(kNormalBinding, imageFromPlane(data.gbuffer().plane(GBufferChannel::kNormalWS)));
+    // The pyramids are of what the screen shows, which may be less than the pixels' own surfaces.
+    const auto imageOf = [&](uint32_t binding, GBufferChannel channel, const Binding& own) {
+        const bool isSame = &data.screen() == &data.gbuffer();
+        return isSame ? own : builder.addImage(binding, imageFromPlane(data.screen().plane(channel)));
+    };
     const ProjectionModel model = data.testCase().projection.model;
-    if (model == ProjectionModel::kHiz) builder.addDepthPyramid(compiler, shaderRoot, depth);
-    if (model == ProjectionModel::kPatches) builder.addSurfacePyramid(compiler, shaderRoot, depth, normal);
+    if (model == ProjectionModel::kHiz) {
+        builder.addDepthPyramid(compiler, shaderRoot, imageOf(kDepthBinding, GBufferChannel::kDeviceDepth, depth));
+    }
+    if (model == ProjectionModel::kPatches) {
+        const Binding shown = imageOf(kDepthBinding, GBufferChannel::kDeviceDepth, depth);
+        builder.addSurfacePyramid(compiler, shaderRoot, shown,
+                                  imageOf(kNormalBinding, GBufferChannel::kNormalWS, normal));
+    }
     if (data.testCase().history) builder.addHistory(compiler, shaderRoot);
     builder.addTrace(compiler, shaderRoot, depth, normal, query);
     return builder.take();

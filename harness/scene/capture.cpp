@@ -11,9 +11,9 @@ namespace {
 
 class CubeCapture {
   public:
-    CubeCapture(const Scene& scene, const CaptureSettings& settings) : scene_(scene), settings_(settings)
+    CubeCapture(const Scene& scene, const CaptureSettings& settings)
+        : scene_(makeOpaqueScene(scene)), settings_(settings)
     {
-        std::erase_if(scene_.primitives, [](const Primitive& primitive) { return primitive.material == "glass"; });
     }
 
     // `last`: what mirrors show; null: nothing.

@@ -249,6 +249,13 @@ std::vector<SurfaceHit> intersectPrimitive(const Primitive& primitive, const Ray
     return hits;
 }
 
+Scene makeOpaqueScene(const Scene& scene)
+{
+    Scene opaque = scene;
+    std::erase_if(opaque.primitives, [](const Primitive& primitive) { return primitive.material == "glass"; });
+    return opaque;
+}
+
 int objectIndexOf(const Scene& scene, int primitive)
 {
     const int own = scene.primitives[static_cast<size_t>(primitive)].objectIndex;

@@ -83,6 +83,9 @@ void validateScene(const Scene& scene);
 // Half the size of the box around a primitive along its own axes, metres; 0 across a plane.
 glm::dvec3 localHalfExtents(const Primitive& primitive);
 
+// The scene without what is of glass.
+Scene makeOpaqueScene(const Scene& scene);
+
 // Object index as the G-buffer shows it: the primitive's own, or its number in the scene from 1.
 int objectIndexOf(const Scene& scene, int primitive);
 

@@ -21,9 +21,10 @@ constexpr double kOffTorus = 1e-7;
 
 class Tracer {
   public:
-    Tracer(const Scene& scene, const Camera& camera, TraceEffect effect)
+    Tracer(const Scene& scene, const Camera& camera, TraceEffect effect, ScreenLayer layer)
         : scene_(scene), frame_(camera), effect_(effect)
     {
+        if (layer == ScreenLayer::kOpaque) opaque_ = makeOpaqueScene(scene);
         const std::string_view material = effect == TraceEffect::kReflection ? "mirror" : "glass";
         for (const Primitive& primitive : scene.primitives)
             traces_.push_back(primitive.material == material);
@@ -91,7 +92,9 @@ class Tracer {
         const Ray view = frame_.primaryRay(point.positionSS);
         const bool sameSide = (glm::dot(view.dirWS, hit.normalWS) > 0.0) == hit.backFace;
         const double distance = glm::dot(hit.positionWS - view.originWS, view.dirWS);
-        const std::optional<SurfaceHit> first = castPrimaryRay(scene_, frame_, view);
+        if (opaque_ && scene_.primitives[static_cast<size_t>(hit.primitive)].material == "glass")
+            return ScreenKnowledge::kHidden;
+        const std::optional<SurfaceHit> first = castPrimaryRay(opaque_ ? *opaque_ : scene_, frame_, view);
         const bool covered = first && first->distance < distance * (1.0 - kSamePoint);
         return sameSide && !covered ? ScreenKnowledge::kVisible : ScreenKnowledge::kHidden;
     }
@@ -99,6 +102,7 @@ class Tracer {
     const Scene& scene_;
     CameraFrame frame_;
     TraceEffect effect_;
+    std::optional<Scene> opaque_; // what the screen shows, where that is not all
     std::vector<bool> traces_;
 };
 
@@ -110,7 +114,7 @@ std::string_view nameOf(ScreenKnowledge knowledge)
     return kNames.at(static_cast<size_t>(knowledge));
 }
 
-Truth computeTruth(const Scene& scene, const Camera& camera, TraceEffect effect)
+Truth computeTruth(const Scene& scene, const Camera& camera, TraceEffect effect, ScreenLayer layer)
 {
     validateCamera(camera);
     validateScene(scene);
@@ -118,7 +122,7 @@ Truth computeTruth(const Scene& scene, const Camera& camera, TraceEffect effect)
     truth.width = camera.width;
     truth.height = camera.height;
     truth.pixels.reserve(static_cast<size_t>(camera.width) * static_cast<size_t>(camera.height));
-    const Tracer tracer(scene, camera, effect);
+    const Tracer tracer(scene, camera, effect, layer);
     for (int y = 0; y < camera.height; ++y)
         for (int x = 0; x < camera.width; ++x)
             truth.pixels.push_back(tracer.trace(x, y));

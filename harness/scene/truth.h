@@ -12,6 +12,10 @@ namespace crossray {
 
 enum class TraceEffect { kReflection, kRefraction };
 
+// What the depth buffer that rays are traced in shows: every surface, or those that are not of glass, as where an
+// engine draws what is transparent last.
+enum class ScreenLayer { kAll, kOpaque };
+
 // Could the screen have known the answer?
 enum class ScreenKnowledge {
     kNoRay,     // the pixel traces no ray
@@ -46,12 +50,14 @@ struct Truth {
 // Rays start at pixels whose nearest surface has the material "mirror" (reflection) or "glass" (refraction), through
 // the pixel's centre, and end at the first surface that they meet: mirrors and glass show their own radiance there.
 // Refraction enters and leaves the same primitive by exact Snell refraction (harness/scene/refraction.h), and ignores
-// what stands inside it; when an interface reflects everything, or the camera is inside the glass, the pixel has no ray.
+// what stands inside it; when an interface reflects everything, or the camera is inside the glass, the pixel has no
+// ray.
 //
 // Visible is meant geometrically: a camera ray through the exact projected hit, not through the centre of its pixel,
 // must meet it first (distances equal to 1e-6). So a pole thinner than a pixel counts as visible although no pixel's
 // centre may show it: what sampling loses is an error of screen space, and its share belongs in the figures.
-Truth computeTruth(const Scene& scene, const Camera& camera, TraceEffect effect);
+// With the layer of what is opaque, glass hides nothing, and what a ray meets of it is hidden.
+Truth computeTruth(const Scene& scene, const Camera& camera, TraceEffect effect, ScreenLayer layer = ScreenLayer::kAll);
 
 // The same from an independent renderer's truth.exr (position + 64 as RGB; 0 = nothing was hit). `objectIndex` selects
 // the tracing pixels. Reads the G-buffer's kLinearDepth, kPositionWS, kNormalWS and kObjectIndex, and kColor where it

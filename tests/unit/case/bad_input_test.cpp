@@ -32,7 +32,7 @@ TEST_F(BadInput, unknownKeysAreAnsweredWithTheNearestName)
     EXPECT_EQ(refusal(withScene("[materials]\n")),
               "a.toml:10:2: unknown key \"materials\" at the top level; did you "
               "mean \"material\"? Allowed: schema, name, summary, "
-              "tags, use, trace, outputs, backends, timeout, must_fail, needs, budget, camera, "
+              "tags, use, trace, outputs, backends, timeout, must_fail, bench, needs, budget, camera, "
               "scene, gbuffer, material, projection, history, hierarchy, probe, "
               "probe_profile, profile, dominant_direction, sky, expect, "
               "expand, known_failure");
