@@ -307,7 +307,7 @@ void addBench(CLI::App& app, CommandLine& line)
     bench.callback([&line] {
         if (line.verb) return; // of a subcommand
         line.verb = [&line] {
-            if (line.bench.cases.empty()) throw InputError("bench: name a case, or one of tracers and throughput");
+            if (line.bench.cases.empty()) throw InputError("bench: name a case (those of `bench` are made for it), or one of tracers and throughput");
             return benchCases(line.global, line.bench);
         };
     });
