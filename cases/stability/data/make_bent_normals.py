@@ -7,10 +7,13 @@ maps do, and its length is 0.5, 1 or 2. Object 2 (columns 16 to 19): the normal 
 import json
 import math
 import os
-import struct
+import sys
 
 WIDTH, HEIGHT, FOV, DEPTH = 24, 16, 60.0, 5.0
 HERE = os.path.dirname(os.path.abspath(__file__))
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.join(HERE, "..", ".."))
+import float_exr  # noqa: E402
 
 
 def unit(v):
@@ -45,38 +48,10 @@ def pixel(x, y):
     return values
 
 
-def attribute(name, kind, data):
-    return name.encode() + b"\0" + kind.encode() + b"\0" + struct.pack("<i", len(data)) + data
-
-
-def write_exr(path, names):
-    channels = b"".join(name.encode() + b"\0" + struct.pack("<iBBBBii", 2, 0, 0, 0, 0, 1, 1) for name in names) + b"\0"
-    window = struct.pack("<iiii", 0, 0, WIDTH - 1, HEIGHT - 1)
-    header = struct.pack("<ii", 20000630, 2)
-    header += attribute("channels", "chlist", channels)
-    header += attribute("compression", "compression", b"\0")
-    header += attribute("dataWindow", "box2i", window) + attribute("displayWindow", "box2i", window)
-    header += attribute("lineOrder", "lineOrder", b"\0")
-    header += attribute("pixelAspectRatio", "float", struct.pack("<f", 1))
-    header += attribute("screenWindowCenter", "v2f", struct.pack("<ff", 0, 0))
-    header += attribute("screenWindowWidth", "float", struct.pack("<f", 1)) + b"\0"
-    lines = []
-    for y in range(HEIGHT):
-        row = [pixel(x, y) for x in range(WIDTH)]
-        data = b"".join(struct.pack("<f", p.get(n.split(".", 1)[1], 0.0)) for n in names for p in row)
-        lines.append(struct.pack("<ii", y, len(data)) + data)
-    offset = len(header) + 8 * HEIGHT
-    table = b""
-    for line in lines:
-        table += struct.pack("<Q", offset)
-        offset += len(line)
-    with open(path, "wb") as file:
-        file.write(header + table + b"".join(lines))
-
-
 names = ["Combined.R", "Combined.G", "Combined.B", "Depth.Z", "IndexOB.X", "Normal.X", "Normal.Y", "Normal.Z",
          "Position.X", "Position.Y", "Position.Z"]
-write_exr(os.path.join(HERE, "bent_normals.exr"), sorted("ViewLayer." + name for name in names))
+float_exr.write(os.path.join(HERE, "bent_normals.exr"), WIDTH, HEIGHT, {
+    "ViewLayer." + name: lambda x, y, name=name: pixel(x, y).get(name, 0.0) for name in names})
 camera = {
     "size": [WIDTH, HEIGHT],
     "camera": {"eye": [0, 0, 0], "target": [0, 0, -1], "fov_y_deg": FOV, "near": 0.1, "far": 100},

@@ -25,6 +25,7 @@
 #define CROSSRAY_PROJECT_HIZ_GLSL
 
 #include "crossray/project/depth_patch.glsl"
+#include "crossray/project/march_end.glsl"
 
 struct HizSettings {
     int minLevel;      // taken into [0, levels - 1]
@@ -264,24 +265,6 @@ HizStep makeHizStep(ScreenFrame frame, ScreenRay ray, HizState state, HizCell ce
                    rayDepth, cell.depths.x, cell.depths.y, cell.depths.x + depthBias, kind);
 }
 
-// What to report of a march that ended without a hit for `reason`.
-int computeHizReason(int reason, bool inFront, bool wasHidden)
-{
-    bool leaves = reason == kHitReasonOffScreen || reason == kHitReasonNearPlane;
-    bool endsHidden = leaves && !inFront;
-    bool sawNothing = wasHidden || !inFront;
-    bool missesUnseen = sawNothing && reason == kHitReasonSky;
-    bool isHidden = endsHidden || missesUnseen;
-    return choose(isHidden, kHitReasonBehindSurface, reason);
-}
-
-int computeHizClass(int reason)
-{
-    int hitClass = choose(reason == kHitReasonSky, kHitClassMiss, kHitClassUnknown);
-    hitClass = choose(reason == kHitReasonDegenerateRay, kHitClassNoRaycast, hitClass);
-    return choose(reason == kHitReasonNone, kHitClassHit, hitClass);
-}
-
 // Traces from originWS along dirWS (any length). Positions and depths are finite whatever the input; a
 // ray that could not start ends at its start.
 TraceResult traceHiz(View view, vec3 originWS, vec3 dirWS, HizSettings userSettings)
@@ -324,9 +307,9 @@ TraceResult traceHiz(View view, vec3 originWS, vec3 dirWS, HizSettings userSetti
     }
     bool isCapped = end == kHizRuns;
     bool isHit = end == kHitReasonNone;
-    int reason = computeHizReason(choose(isCapped, kHitReasonIterationCap, end), state.inFront, state.wasHidden);
+    int reason = computeMarchReason(choose(isCapped, kHitReasonIterationCap, end), state.inFront, state.wasHidden);
     reason = choose(isHit, kHitReasonNone, reason);
-    return TraceResult(computeHizClass(reason), reason, screenRayPositionSS(ray, endS),
+    return TraceResult(computeMarchClass(reason), reason, screenRayPositionSS(ray, endS),
                        linearDepthFromAffine(frame.orthographic, endAffine), iterations, maxUsedLevel, kind);
 }
 

@@ -23,8 +23,8 @@
 
 #include "crossray/core/math.glsl"
 #include "crossray/core/view.glsl"
+#include "crossray/project/march_end.glsl"
 #include "crossray/project/screen_ray.glsl"
-#include "crossray/shared/outputs.glsl"
 
 // Metres: this and more stands for "no surface", which no ray is behind.
 const float kNoSurfaceDepth = 1e30;
@@ -143,23 +143,6 @@ float computeLinearStride(LinearSettings settings, ScreenRay ray, float end)
     return choose(settings.steps > 0, end / float(max(settings.steps, 1)), pixels * ray.pixelLength);
 }
 
-// Why a march that ended without a hit did: an end in hiding is unknown.
-int computeLinearReason(int reason, bool inFront, bool wasHidden)
-{
-    bool leaves = reason == kHitReasonOffScreen || reason == kHitReasonNearPlane;
-    bool endsHidden = leaves && !inFront;
-    bool missesUnseen = reason == kHitReasonSky && (wasHidden || !inFront);
-    bool isHidden = endsHidden || missesUnseen;
-    return choose(isHidden, kHitReasonBehindSurface, reason);
-}
-
-int computeLinearClass(int reason)
-{
-    int hitClass = choose(reason == kHitReasonSky, kHitClassMiss, kHitClassUnknown);
-    hitClass = choose(reason == kHitReasonDegenerateRay, kHitClassNoRaycast, hitClass);
-    return choose(reason == kHitReasonNone, kHitClassHit, hitClass);
-}
-
 float linearRayDepth(View view, ScreenRay ray, float s)
 {
     return linearDepthFromAffine(view.orthographic, screenRayAffineDepth(ray, s));
@@ -235,9 +218,9 @@ LinearResult traceLinear(View view, vec3 originWS, vec3 dirWS, LinearSettings se
     bool isCapped = reason == kLinearRuns;
     reason = choose(isCapped, kHitReasonIterationCap, reason);
     bool isFound = reason == kHitReasonNone;
-    reason = computeLinearReason(reason, state.inFront, state.wasHidden);
+    reason = computeMarchReason(reason, state.inFront, state.wasHidden);
     float s = choose(isFound, state.outer, state.s);
-    return LinearResult(computeLinearClass(reason), reason, screenRayPositionSS(ray, s), linearRayDepth(view, ray, s),
+    return LinearResult(computeMarchClass(reason), reason, screenRayPositionSS(ray, s), linearRayDepth(view, ray, s),
                         iterations, kind);
 }
 
