@@ -18,7 +18,18 @@ target_compile_definitions(crossray_run PRIVATE CROSSRAY_SOURCE_DIR="${CMAKE_SOU
                            CROSSRAY_VERSION="${PROJECT_VERSION}")
 crossray_module(bench USES run)
 crossray_module(inspect USES run PACKAGES nlohmann_json::nlohmann_json)
-crossray_module(cli USES bench inspect PACKAGES CLI11::CLI11 PNG::PNG)
+# The pages of the report stand in harness/report/web and are strings in the program.
+file(GLOB web_files CONFIGURE_DEPENDS harness/report/web/*.html harness/report/web/*.css harness/report/web/*.js)
+set(web_source ${CMAKE_BINARY_DIR}/web_files.cpp)
+add_custom_command(
+  OUTPUT ${web_source}
+  COMMAND ${CMAKE_COMMAND} -D OUTPUT=${web_source} -D FOLDER=${CMAKE_SOURCE_DIR}/harness/report/web
+          -D FOLDER_NAME=harness/report/web -P ${CMAKE_SOURCE_DIR}/cmake/embed.cmake
+  DEPENDS ${web_files} ${CMAKE_SOURCE_DIR}/cmake/embed.cmake
+  VERBATIM)
+crossray_module(report USES run PACKAGES nlohmann_json::nlohmann_json ZLIB::ZLIB)
+target_sources(crossray_report PRIVATE ${web_source})
+crossray_module(cli USES bench inspect report PACKAGES CLI11::CLI11 PNG::PNG)
 # CLI11 is a header of templates that the optimiser spends minutes on, for a command line that is parsed once.
 set_source_files_properties(harness/cli/command_line.cpp PROPERTIES COMPILE_OPTIONS "-O0")
 

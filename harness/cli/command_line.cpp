@@ -32,6 +32,8 @@ struct CommandLine {
     std::string before, after;
     bool diffJson = false;
     ReviewOptions review;
+    ReportVerbOptions report;
+    bool noReport = false;
     bool reviewList = false;
     std::string github = "auto";
     std::string workerBackend;
@@ -116,6 +118,7 @@ void addRun(CLI::App& app, CommandLine& line)
         ->take_last();
     verb.add_flag("--json", run.json, "Print run.json's summary to standard output, and all text to standard error");
     verb.add_option("--junit", run.junit, "Write JUnit XML")->type_name("FILE");
+    verb.add_flag("--no-report", line.noReport, "Write no pages (OUT/report/index.html)");
     addChoice<std::string>(verb, "--github", line.github, {{"auto", "auto"}, {"on", "on"}, {"off", "off"}},
                            "GitHub annotations; auto: when in GitHub Actions");
     addChoice<ProgressMode>(verb, "--progress", run.progress,
@@ -132,6 +135,7 @@ void addRun(CLI::App& app, CommandLine& line)
             line.run.github =
                 line.github == "on" || (line.github == "auto" && actions != nullptr && std::string(actions) == "true");
             if (line.stopAtFirst) line.run.maxFailures = 1;
+            line.run.report = !line.noReport;
             return runCases(line.global, line.run);
         };
     });
@@ -183,9 +187,24 @@ void addInspection(CLI::App& app, CommandLine& line)
     review.add_option("--accept", line.review.accept, "Record the goldens of a case from the run's planes")
         ->type_name("CASE")
         ->excludes(listFlag);
-    review.add_option("--backend", line.review.backend, "Whose planes to record; default: the first that kept some")
+    review.add_option("--backend", line.review.backend, "Whose planes to record; default: the first that failed")
         ->type_name("NAME");
     review.callback([&line] { line.verb = [&line] { return reviewGoldens(line.global, line.review); }; });
+}
+
+void addReport(CLI::App& app, CommandLine& line)
+{
+    CLI::App& report = *app.add_subcommand("report", "Show a run as pages for a browser");
+    report.add_option("run", line.report.run, "A run's folder, or its run.json; default: out/last")->type_name("RUN");
+    report.add_flag("--single", line.report.isSingle, "One file of at most 20 MB that needs no other");
+    report.add_option("-o,--output", line.report.output, "Default: RUN/report, or RUN/report.html for a single file")
+        ->type_name("DIR");
+    report.add_option("--trace", line.report.traces, "What `crossray trace --json` printed; may be repeated")
+        ->type_name("FILE")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    report.add_flag("--open", line.report.open, "Open it in the browser");
+    report.callback([&line] { line.verb = [&line] { return reportRun(line.report); }; });
 }
 
 void addTools(CLI::App& app, CommandLine& line)
@@ -329,6 +348,7 @@ std::unique_ptr<CLI::App> makeApp(CommandLine& line)
     app->add_option("--cache-dir", global.cache, "The cache folder (CROSSRAY_CACHE)")->type_name("DIR");
     addRun(*app, line);
     addInspection(*app, line);
+    addReport(*app, line);
     addTools(*app, line);
     addBench(*app, line);
     return app;

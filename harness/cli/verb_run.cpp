@@ -1,4 +1,5 @@
 #include "harness/cli/verbs.h"
+#include "harness/report/report.h"
 #include "harness/run/environment.h"
 #include "harness/run/junit.h"
 #include "harness/run/plane_files.h"
@@ -97,8 +98,9 @@ void printSummary(const RunResult& run, const RunOptions& options, const Style& 
         for (const auto& [verdict, count] : counts.byVerdict) {
             if (verdict != Verdict::kPass) others += fmt::format(", {} {}", count, nameOf(verdict));
         }
-        fmt::print(text, "{} on {} in {:.1f} s{}; results in {}/run.json\n", countOf(run.cases.size(), "case"),
-                   countOf(run.backends.size(), "backend"), run.seconds, others, options.output);
+        fmt::print(text, "{} on {} in {:.1f} s{}; results in {}/run.json{}\n", countOf(run.cases.size(), "case"),
+                   countOf(run.backends.size(), "backend"), run.seconds, others, options.output,
+                   options.report ? fmt::format(", pages in {}/report/index.html", options.output) : "");
     }
     if (!run.unchanged.empty()) {
         fmt::print(text, "{} left out: passed with the same inputs\n", countOf(run.unchanged.size(), "case"));
@@ -114,6 +116,19 @@ void writeResults(const RunResult& run, const RunOptions& options)
     const std::string json = formatRunJson(run);
     writeFileWhole(fs::path(options.output) / "run.json", json);
     if (!options.junit.empty()) writeFileWhole(options.junit, formatJunit(run));
+}
+
+// The run counts, and not its pages: what goes wrong with them is said and changes no exit code.
+void writePages(const RunResult& run, const RunOptions& options)
+{
+    if (!options.report) return;
+    ReportOptions report;
+    report.runFolder = options.output;
+    try {
+        writeReport(run, options.output, fs::path(options.output) / "report", report);
+    } catch (const Error& error) {
+        fmt::print(stderr, "crossray: no report: {}\n", error.what());
+    }
 }
 
 RunResult describeRun(const GlobalOptions& global, const RunOptions& options, int cores)
@@ -193,6 +208,7 @@ int runCases(const GlobalOptions& global, const RunOptions& options)
     std::sort(run.unchanged.begin(), run.unchanged.end());
     run.exitCode = static_cast<int>(computeExitCode(run));
     writeResults(run, options);
+    writePages(run, options);
     if (!options.validation) writePassedCases(options.output, mergePassedCases(passedBefore, run));
     if (options.github) fmt::print(text, "{}", formatGithubAnnotations(run));
     printSummary(run, options, style, text);

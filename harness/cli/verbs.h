@@ -45,6 +45,7 @@ struct RunOptions {
     std::string junit;
     bool json = false;
     bool github = false;
+    bool report = true; // as pages, below the output folder
     ProgressMode progress = ProgressMode::kAuto;
     bool quiet = false, verbose = false;
 };
@@ -93,6 +94,15 @@ struct ReviewOptions {
     std::string backend;
 };
 int reviewGoldens(const GlobalOptions& global, const ReviewOptions& options);
+
+struct ReportVerbOptions {
+    std::string run = "out/last";
+    bool isSingle = false;
+    std::string output; // folder, or for a single one the file; empty: beside the run.json
+    std::vector<std::string> traces;
+    bool open = false; // in a browser
+};
+int reportRun(const ReportVerbOptions& options);
 
 int diagnose(const GlobalOptions& global);
 

@@ -2,6 +2,7 @@
 
 #include "harness/run/plane_files.h"
 #include "harness/run/verdict.h"
+#include "harness/scene/exr.h"
 
 #include <algorithm>
 
@@ -15,6 +16,14 @@ bool wantsPlanes(KeepPlanes keep, const BackendResult& result)
         return tallyOf(result.verdict) == Tally::kFailed || result.verdict == Verdict::kKnownFail;
     }
     return keep == KeepPlanes::kAll;
+}
+
+size_t countBytes(const std::vector<Plane>& planes)
+{
+    size_t bytes = 0;
+    for (const Plane& plane : planes)
+        bytes += plane.values.size() * sizeof(double);
+    return bytes;
 }
 
 } // namespace
@@ -98,26 +107,44 @@ void CaseFlight::settle(const std::string& backend, Settled& settled)
     settled.results.push_back(std::move(result));
 }
 
-// Planes are most of what a case holds in memory.
+// Planes are most of what a case holds in memory. What passed stays beside what may still fail, as far as it is small.
 void CaseFlight::dropPlanes(const BackendResult& result)
 {
     if (judge_.isReference(result.backend) || wantsPlanes(options_.keepPlanes, result)) return;
-    planes_.erase(result.backend);
+    const auto planes = planes_.find(result.backend);
+    if (planes == planes_.end()) return;
+    const size_t bytes = countBytes(planes->second);
+    const bool isCompany = options_.keepPlanes == KeepPlanes::kFailed && !options_.outputFolder.empty();
+    if (isCompany && companyBytes_ + bytes <= kMaxCompanyBytes) {
+        companyBytes_ += bytes;
+    } else {
+        planes_.erase(planes);
+    }
 }
 
 void CaseFlight::writePlanes(CaseResult& result) const
 {
     if (options_.keepPlanes == KeepPlanes::kNone || options_.outputFolder.empty()) return;
+    const bool isWanted = std::any_of(result.backends.begin(), result.backends.end(),
+                                      [&](const auto& backend) { return wantsPlanes(options_.keepPlanes, backend); });
+    if (!isWanted) return;
     const PlaneFiles files(options_.outputFolder);
     bool keptAny = false;
     for (BackendResult& backend : result.backends) {
         const auto planes = planes_.find(backend.backend);
-        if (planes == planes_.end() || !wantsPlanes(options_.keepPlanes, backend)) continue;
+        if (planes == planes_.end()) continue;
         backend.planesFile = files.write(result.name, backend.backend, planes->second);
         keptAny = true;
     }
-    const std::vector<Plane> expected = judge_.takeExpectedPlanes();
-    if (keptAny && !expected.empty()) result.expectedFile = files.write(result.name, "expected", expected);
+    if (!keptAny) return;
+    std::vector<Plane> expected = judge_.takeExpectedPlanes();
+    int channels = 0;
+    for (const Plane& plane : expected)
+        channels += plane.channels;
+    for (Plane& mask : judge_.makeMaskPlanes()) {
+        if (++channels <= kMaxExrChannels) expected.push_back(std::move(mask));
+    }
+    if (!expected.empty()) result.expectedFile = files.write(result.name, "expected", expected);
 }
 
 } // namespace crossray

@@ -13,6 +13,9 @@
 
 namespace crossray {
 
+// What a case holds at most of planes that passed, for the company of one that fails.
+inline constexpr size_t kMaxCompanyBytes = size_t{48} << 20;
+
 // Thread-safe.
 class CaseFlight {
   public:
@@ -29,7 +32,8 @@ class CaseFlight {
     Settled take(Answer answer, bool repeatsExactly);
     // Nothing is to come any more: what still waits for another backend is judged by what there is.
     Settled finish();
-    // Writes the planes that the options ask for and notes their files in the results.
+    // Writes the planes that the options ask for and notes their files in the results: where one backend failed, those
+    // of the others as well, so that the two can be compared.
     void writePlanes(CaseResult& result) const;
 
   private:
@@ -50,6 +54,7 @@ class CaseFlight {
     std::set<std::string> answered_;
     std::map<std::string, Waiting> waiting_;
     std::map<std::string, std::vector<Plane>> planes_; // those that are still needed
+    size_t companyBytes_ = 0;                          // of those that passed and are held beside failures
 };
 
 // Whether the case runs on the backend at all.

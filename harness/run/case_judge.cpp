@@ -228,6 +228,39 @@ bool CaseJudge::isReference(const std::string& backend) const
     });
 }
 
+namespace {
+
+constexpr double kCompared = 1, kComparedWhereHit = 2;
+
+// What the mask is before a backend's own hits narrow it.
+Plane makeMaskPlane(const CaseData& data, Expectation expectation)
+{
+    const bool asksForHits = expectation.where == Where::kHits || expectation.where == Where::kAnswerableHits;
+    if (expectation.where == Where::kHits) expectation.where = Where::kTraced;
+    if (expectation.where == Where::kAnswerableHits) expectation.where = Where::kAnswerable;
+    const Mask mask = makeMask(data, expectation, nullptr);
+    const Camera& camera = data.testCase().camera;
+    Plane plane({}, camera.width, camera.height, 1);
+    for (size_t pixel = 0; pixel < mask.size(); ++pixel)
+        plane.values[pixel] = mask[pixel] == 0 ? 0.0 : asksForHits ? kComparedWhereHit : kCompared;
+    return plane;
+}
+
+// What a budget counts as right: a hit where the screen could have known it, else unknown.
+Plane makeClassPlane(const std::vector<HitTruth>& truth, const Camera& camera)
+{
+    Plane plane({}, camera.width, camera.height, 1);
+    for (size_t pixel = 0; pixel < truth.size(); ++pixel) {
+        const HitClass hitClass = !truth[pixel].traced      ? HitClass::kNoRaycast
+                                  : truth[pixel].answerable ? HitClass::kHit
+                                                            : HitClass::kUnknown;
+        plane.values[pixel] = static_cast<double>(hitClass);
+    }
+    return plane;
+}
+
+} // namespace
+
 std::vector<Plane> CaseJudge::takeExpectedPlanes() const
 {
     const std::lock_guard lock(mutex_);
@@ -236,6 +269,34 @@ std::vector<Plane> CaseJudge::takeExpectedPlanes() const
         if (!made.plane) continue;
         planes.push_back(*made.plane);
         planes.back().name = fmt::format("{}@{}", data_->testCase().expectations[index].output.name, index);
+    }
+    const auto& expectations = data_->testCase().expectations;
+    for (size_t index = 0; hitTruth_ && index < expectations.size(); ++index) {
+        if (!expectations[index].budget) continue;
+        planes.push_back(makeClassPlane(*hitTruth_, data_->testCase().camera));
+        planes.back().name = fmt::format("{}@{}", expectations[index].output.name, index);
+    }
+    return planes;
+}
+
+std::vector<Plane> CaseJudge::makeMaskPlanes() const
+{
+    const std::lock_guard lock(mutex_);
+    std::vector<Plane> planes;
+    const auto& expectations = data_->testCase().expectations;
+    for (size_t index = 0; index < expectations.size(); ++index) {
+        if (expectations[index].budget) continue; // judged against the truth, ray by ray
+        Plane plane = makeMaskPlane(*data_, expectations[index]);
+        if (std::all_of(plane.values.begin(), plane.values.end(), [](double value) { return value == kCompared; }))
+            continue;
+        const auto same = std::find_if(planes.begin(), planes.end(),
+                                       [&](const Plane& other) { return other.values == plane.values; });
+        if (same != planes.end()) {
+            same->name += fmt::format(",{}", index);
+        } else {
+            plane.name = fmt::format("mask@{}", index);
+            planes.push_back(std::move(plane));
+        }
     }
     return planes;
 }

@@ -36,8 +36,12 @@ class CaseJudge {
     // Whether some other backend is held against this one.
     bool isReference(const std::string& backend) const;
 
-    // The expected planes made so far, named "HitDepth@2" by output and place among the expectations.
+    // The expected planes made so far, named "HitDepth@2" by output and place among the expectations; of a budget the
+    // hit classes that it counts as right.
     std::vector<Plane> takeExpectedPlanes() const;
+    // Which pixels the expectations compare, where it is not all: "mask@0,2" by their places; 1 compared, 0 not, 2
+    // where the backend's HitSuccess says hit.
+    std::vector<Plane> makeMaskPlanes() const;
 
   private:
     struct Made {

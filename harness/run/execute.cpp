@@ -29,16 +29,18 @@ double millisecondsSince(Clock::time_point start)
 }
 
 // An estimate of what a case holds while in flight, for the schedule's bound: its G-buffer, two jobs, the expected
-// planes, and those of the backends that are not judged yet or are held for others.
-size_t estimateBytes(const Case& testCase)
+// planes, and those of the backends that are not judged yet, are held for others or keep a failure company.
+size_t estimateBytes(const Case& testCase, size_t backends)
 {
     constexpr size_t kInputChannels = 40;
     constexpr size_t kPlanesAtOnce = 3;
-    size_t channels = kInputChannels;
+    size_t outputChannels = 0;
     for (const OutputInfo& output : testCase.outputs)
-        channels += static_cast<size_t>(output.channels) * kPlanesAtOnce;
-    return static_cast<size_t>(testCase.camera.width) * static_cast<size_t>(testCase.camera.height) * channels *
-           sizeof(double);
+        outputChannels += static_cast<size_t>(output.channels);
+    const size_t channelBytes =
+        static_cast<size_t>(testCase.camera.width) * static_cast<size_t>(testCase.camera.height) * sizeof(double);
+    const size_t company = std::min(kMaxCompanyBytes, channelBytes * outputChannels * backends);
+    return channelBytes * (kInputChannels + kPlanesAtOnce * outputChannels) + company;
 }
 
 // The quick CPU devices first: they give the first verdicts, and are what the others are mostly held against.
@@ -100,7 +102,7 @@ class Execution {
             std::vector<bool>& row = applies.emplace_back();
             for (const std::string& backend : order_)
                 row.push_back(runsOn(testCase, backend));
-            bytes.push_back(estimateBytes(testCase));
+            bytes.push_back(estimateBytes(testCase, order_.size()));
         }
         return Schedule(std::move(applies), std::move(bytes), static_cast<size_t>(options_.cores), Schedule::Limits{});
     }

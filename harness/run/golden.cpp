@@ -26,11 +26,16 @@ const CaseResult* findCase(const RunResult& run, const std::string& name)
     return found == run.cases.end() ? nullptr : &*found;
 }
 
+// The first that failed, unless one is named; a run that kept all planes may have none that failed.
 const BackendResult& chooseBackend(const CaseResult& testCase, const std::string& backend)
 {
+    const BackendResult* chosen = nullptr;
     for (const BackendResult& result : testCase.backends) {
-        if (!result.planesFile.empty() && (backend.empty() || backend == result.backend)) return result;
+        if (result.planesFile.empty() || (!backend.empty() && backend != result.backend)) continue;
+        if (tallyOf(result.verdict) == Tally::kFailed) return result;
+        if (chosen == nullptr) chosen = &result;
     }
+    if (chosen != nullptr) return *chosen;
     throw InputError(fmt::format("{}: the run kept no planes of it{}; run it with --planes all", testCase.name,
                                  backend.empty() ? "" : " on " + backend));
 }

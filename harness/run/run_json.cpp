@@ -363,6 +363,16 @@ std::string formatRunJson(const RunResult& run)
     return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+std::string formatCaseJson(const CaseResult& testCase)
+{
+    return caseToJson(testCase).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string formatHeadJson(const RunResult& run)
+{
+    return headToJson(run).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 RunResult parseRunJson(std::string_view text, const std::string& name)
 {
     try {

@@ -15,6 +15,10 @@ inline constexpr std::string_view kRunSchema = "crossray-run/1";
 
 // Numbers that JSON does not have are the strings "NaN", "Infinity" and "-Infinity".
 std::string formatRunJson(const RunResult& run);
+// One of its cases, on one line.
+std::string formatCaseJson(const CaseResult& testCase);
+// All of it but the cases, on one line.
+std::string formatHeadJson(const RunResult& run);
 // Throws InputError with `name` for text that is no run.json of this schema.
 RunResult parseRunJson(std::string_view text, const std::string& name);
 // A run.json, or the folder that holds one.

@@ -1,0 +1,72 @@
+#include "harness/cli/verbs.h"
+#include "harness/report/report.h"
+#include "harness/run/run_json.h"
+
+#include <fmt/format.h>
+
+#include <spawn.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <sstream>
+
+namespace crossray {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string readText(const std::string& file)
+{
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream)
+        throw InputError({file, 0, 0}, "there is no such file; allowed is what `crossray trace --json` printed");
+    std::ostringstream content;
+    content << stream.rdbuf();
+    return content.str();
+}
+
+fs::path chooseTarget(const ReportVerbOptions& options, const fs::path& runFolder)
+{
+    if (!options.isSingle) return options.output.empty() ? runFolder / "report" : fs::path(options.output);
+    if (options.output.empty()) return runFolder / "report.html";
+    const fs::path given = options.output;
+    return given.extension() == ".html" ? given : given / "report.html";
+}
+
+// xdg-open leaves the browser behind and ends.
+void openInBrowser(const fs::path& page)
+{
+    const std::string file = fs::absolute(page).string();
+    std::string program = "xdg-open", argument = file;
+    char* const arguments[] = {program.data(), argument.data(), nullptr};
+    pid_t process = 0;
+    if (posix_spawnp(&process, program.c_str(), nullptr, nullptr, arguments, environ) != 0) {
+        throw EnvironmentError(fmt::format("--open: there is no xdg-open; open {} yourself", file));
+    }
+}
+
+} // namespace
+
+int reportRun(const ReportVerbOptions& options)
+{
+    const fs::path file = findRunJson(options.run);
+    const fs::path runFolder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+    const RunResult run = readRun(options.run);
+    ReportOptions report;
+    report.isSingle = options.isSingle;
+    report.runFolder = runFolder.generic_string();
+    for (const std::string& trace : options.traces)
+        report.traces.push_back({trace, readText(trace)});
+    const fs::path target = chooseTarget(options, runFolder);
+    const ReportSummary summary = writeReport(run, runFolder, target, report);
+    for (const std::string& line : summary.leftOut)
+        fmt::print("left out: {}\n", line);
+    const fs::path page = options.isSingle ? target : target / "index.html";
+    fmt::print("{}: {} in {} file{}, {:.1f} MB\n", page.generic_string(), formatCounts(countVerdicts(run)),
+               summary.files, summary.files == 1 ? "" : "s", static_cast<double>(summary.bytes) * 1e-6);
+    if (options.open) openInBrowser(page);
+    return static_cast<int>(ExitCode::kAsExpected);
+}
+
+} // namespace crossray

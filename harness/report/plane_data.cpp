@@ -1,0 +1,83 @@
+#include "harness/report/plane_data.h"
+
+#include "harness/report/page.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cstring>
+#include <stdexcept>
+
+namespace crossray {
+
+namespace {
+
+// Exponents lie beside exponents then, and so shrink: half the size of the floats as they come.
+std::string shuffleFloats(const Plane& plane)
+{
+    const size_t pixels = plane.pixelCount(), channels = static_cast<size_t>(plane.channels);
+    const size_t count = pixels * channels;
+    std::string bytes(count * sizeof(float), '\0');
+    for (size_t channel = 0; channel < channels; ++channel) {
+        for (size_t pixel = 0; pixel < pixels; ++pixel) {
+            const auto value = static_cast<float>(plane.values[pixel * channels + channel]);
+            unsigned char raw[sizeof(float)];
+            std::memcpy(raw, &value, sizeof(float));
+            for (size_t byte = 0; byte < sizeof(float); ++byte)
+                bytes[byte * count + channel * pixels + pixel] = static_cast<char>(raw[byte]);
+        }
+    }
+    return bytes;
+}
+
+std::string deflateBytes(const std::string& bytes)
+{
+    constexpr int kLevel = 5;
+    uLongf size = compressBound(static_cast<uLong>(bytes.size()));
+    std::string packed(size, '\0');
+    const int status =
+        compress2(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
+                  static_cast<uLong>(bytes.size()), kLevel);
+    if (status != Z_OK) throw std::logic_error(fmt::format("zlib's compress2 says {}", status));
+    packed.resize(size);
+    return packed;
+}
+
+} // namespace
+
+std::string packPlane(const Plane& plane)
+{
+    return deflateBytes(shuffleFloats(plane));
+}
+
+std::string PlaneEncoder::encode(const std::string& source, std::span<const Plane> planes)
+{
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const Plane& plane : planes) {
+        nlohmann::ordered_json entry{{"name", plane.name}, {"channels", plane.channels}};
+        std::string bytes = shuffleFloats(plane);
+        std::vector<Written>& others = written_[plane.name];
+        const auto same =
+            std::find_if(others.begin(), others.end(), [&](const Written& other) { return other.bytes == bytes; });
+        if (same != others.end()) {
+            entry["same"] = same->source;
+        } else {
+            entry["data"] = encodeBase64(deflateBytes(bytes));
+            others.push_back({source, std::move(bytes)});
+        }
+        list.push_back(std::move(entry));
+    }
+    const int width = planes.empty() ? 0 : planes.front().width, height = planes.empty() ? 0 : planes.front().height;
+    const nlohmann::ordered_json json{{"width", width}, {"height", height}, {"planes", list}};
+    return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+void PlaneEncoder::forget(const std::string& source)
+{
+    for (auto& [name, others] : written_)
+        std::erase_if(others, [&](const Written& other) { return other.source == source; });
+}
+
+} // namespace crossray

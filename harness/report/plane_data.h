@@ -1,0 +1,33 @@
+// Planes as JSON for a page: 32-bit floats, channel after channel, their bytes sorted by significance, deflated, in
+// base64.
+#pragma once
+
+#include "harness/base/plane.h"
+
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace crossray {
+
+// Remembers which planes of a case have been written, so that an answer with the same bits as another's is a reference.
+class PlaneEncoder {
+  public:
+    // {"width":..,"height":..,"planes":[{"name":..,"channels":..,"data":BASE64 or "same":SOURCE}]}
+    std::string encode(const std::string& source, std::span<const Plane> planes);
+    // Takes the last encode() back: what it made is not part of the report.
+    void forget(const std::string& source);
+
+  private:
+    struct Written {
+        std::string source;
+        std::string bytes;
+    };
+    std::map<std::string, std::vector<Written>> written_; // by the plane's name
+};
+
+// The deflated bytes of one plane.
+std::string packPlane(const Plane& plane);
+
+} // namespace crossray

@@ -1,0 +1,315 @@
+// Puts the page together: state changes in, drawings out.
+import { choose, chooseBackend } from 'crossray/choose.js';
+import { loadDetails, loadPlanes, readIndex } from 'crossray/data.js';
+import { h, say } from 'crossray/dom.js';
+import { drawCommands, drawHead } from 'crossray/head.js';
+import { listenToKeys, openDialog, openHelp } from 'crossray/keys.js';
+import { createList } from 'crossray/list.js';
+import { formatShort, parseTolerance, unitOf } from 'crossray/numbers.js';
+import { createPanes } from 'crossray/panes.js';
+import { drawPixel } from 'crossray/pixel.js';
+import { compareDisplay, compareMask, measure, rankErrors } from 'crossray/planes.js';
+import { createStore } from 'crossray/state.js';
+import { drawToolbar } from 'crossray/toolbar.js';
+import { addTrace, drawTracePanel, findTrace } from 'crossray/trace.js';
+import { drawDifference, drawPlane, resolveView } from 'crossray/views.js';
+
+const kSchema = 'crossray-report/1';
+const byId = (id) => document.getElementById(id);
+const index = readIndex();
+const cases = new Map(index.cases.map((item) => [item.name, item]));
+
+// What is loaded of the chosen case, and what choose() made of it.
+let model = { item: null, details: null, planesOf: new Map() };
+let shown = null;
+let picture = { mask: null, errors: null, rank: [] };
+let trace = null;
+
+const store = createStore(react);
+const state = () => store.get();
+const update = (patch) => store.update(patch);
+const list = createList(index.cases, (name) => goToCase(name));
+const panes = createPanes(byId('panes'), { state, update, pick: (x, y) => update({ x, y }) });
+
+function goToCase(name) {
+  if (name) update({ case: name, a: '', o: '', e: -1, x: -1, y: -1, vs: 'expected', step: -1, z: 0, cx: 0.5, cy: 0.5 });
+}
+
+async function loadCase(item) {
+  model = { item, details: null, planesOf: new Map() };
+  list.select(item.name);
+  drawAll();
+  const loading = model;
+  try {
+    loading.details = await loadDetails(item);
+    const sources = Object.keys(item.planes ?? {});
+    const planes = await Promise.all(sources.map((source) => loadPlanes(item, source)));
+    sources.forEach((source, i) => loading.planesOf.set(source, planes[i]));
+  } catch (error) {
+    say(error.message);
+  }
+  if (loading === model) drawAll();
+}
+
+// The pixel to look at: the one asked for, else the worst that the judge found, else the largest difference.
+function currentPixel() {
+  const plane = shown?.actual?.plane ?? shown?.expected?.plane;
+  if (!plane) return [-1, -1];
+  const { x, y } = state();
+  if (x >= 0 && y >= 0 && x < plane.width && y < plane.height) return [x, y];
+  const worst = worstPixel();
+  return worst ?? [Math.floor(plane.width / 2), Math.floor(plane.height / 2)];
+}
+
+function worstPixel() {
+  const worst = !shown.isAgainstBackend && shown.expectation?.comparison?.worst;
+  if (worst) return [worst.x, worst.y];
+  const plane = shown.actual?.plane;
+  return picture.rank.length > 0 && plane ? [picture.rank[0] % plane.width, Math.floor(picture.rank[0] / plane.width)] : null;
+}
+
+function rangeOf(planes, channel) {
+  const found = planes.map((plane) => measure(plane, channel, shown.type === 'depth'));
+  return { min: Math.min(...found.map((each) => each.min)), max: Math.max(...found.map((each) => each.max)) };
+}
+
+function factsOf(plane) {
+  const { min, max, nan, plusInfinity, minusInfinity } = measure(plane, state().ch < plane.channels ? state().ch : -1, shown.type === 'depth');
+  const loud = [[nan, 'NaN'], [plusInfinity, '+Inf'], [minusInfinity, '−Inf']].filter(([count]) => count > 0);
+  return {
+    facts: [`${formatShort(min)} … ${formatShort(max)}`, ...loud.map(([count, name]) => `${count} ${name}`)].join(' · '),
+    isLoud: loud.length > 0,
+  };
+}
+
+function planePane(key, { plane, title }, view, mask) {
+  return { key, title, width: plane.width, height: plane.height, bytes: drawPlane(plane, shown.type, view), mask, ...factsOf(plane) };
+}
+
+function differencePane() {
+  const { against, actual } = shown;
+  const finite = picture.errors.filter(Number.isFinite);
+  const largest = finite.reduce((a, b) => Math.max(a, b), 0);
+  const endless = picture.errors.length - finite.length;
+  const { dx, signed, ch } = state();
+  const facts = [`${picture.count} px ${picture.isJudged ? 'beyond' : 'differ'}`, `max ${formatShort(largest)} ${unitOf(shown.type)}`];
+  if (endless > 0) facts.push(`${endless} without a number`);
+  return {
+    key: 'difference', title: signed ? 'actual − expected' : 'difference', width: actual.plane.width, height: actual.plane.height,
+    bytes: drawDifference(against.plane, actual.plane, picture, picture.mask, { multiplier: dx, signed: signed === 1, channel: ch, largest }),
+    mask: picture.mask, facts: facts.join(' · '), isLoud: endless > 0,
+  };
+}
+
+function drawPictures() {
+  const { expected, against, actual } = shown;
+  const planes = [expected, against, actual].filter(Boolean).map((each) => each.plane);
+  picture = { mask: null, errors: null, rank: [], count: 0 };
+  if (planes.length === 0) {
+    const why = shown.result?.reason;
+    panes.message(h('p', {}, model.item.planes ? 'No plane of this output is in the report.' : 'This report holds no planes of this case.'),
+      why && h('pre', {}, why), h('p', { class: 'dim' }, 'A run keeps the planes of cases with a failure; --planes all keeps those of all.'));
+    return;
+  }
+  if (shown.expectation && actual) {
+    const hits = model.planesOf.get(shown.backend)?.find((plane) => plane.name === 'HitSuccess');
+    picture.mask = compareMask(model.planesOf.get('expected') ?? [], shown.expectation.index, hits);
+  }
+  const view = resolveView({ mode: state().mode, exposure: state().ev, offset: state().off, gamma: state().gamma, normalise: state().norm === 1, channel: state().ch }, shown.type);
+  view.range = rangeOf(planes, state().ch < planes[0].channels ? state().ch : -1);
+  const made = [];
+  if (shown.isAgainstBackend && expected) made.push(planePane('expected', expected, view, picture.mask));
+  if (against) made.push(planePane('against', against, view, picture.mask));
+  if (actual) made.push(planePane('actual', actual, view, null));
+  if (against && actual) {
+    const bounds = shown.isAgainstBackend || !shown.expectation ? null : parseTolerance(shown.expectation.tolerance);
+    Object.assign(picture, compareDisplay(shown.type, against.plane, actual.plane, picture.mask, bounds));
+    picture.isJudged = bounds !== null;
+    picture.rank = rankErrors(picture.errors);
+    picture.count = picture.beyond.reduce((count, each) => count + each, 0);
+    made.push(differencePane());
+  }
+  panes.show(made);
+}
+
+function drawPixelPanel() {
+  const [x, y] = currentPixel();
+  drawPixel(byId('pixel'), { shown, planesOf: model.planesOf, item: model.item, x, y, mask: picture.mask, outputs: index.outputs, rank: picture.rank, update, goTo });
+  drawHead(byId('case-head'), {
+    item: model.item, details: model.details, shown, update,
+    filterTag: (tag) => { byId('filter').value = `@${tag}`; update({ f: `@${tag}` }); },
+  });
+}
+
+async function drawTraceOfPixel() {
+  const [x, y] = currentPixel();
+  const { item } = model;
+  const found = x >= 0 ? await findTrace(index, item.name, x, y) : null;
+  if (item !== model.item) return;
+  trace = found;
+  const most = trace ? Math.max(...trace.backends.map((record) => record.steps.length)) : 0;
+  const step = Math.min(state().step, most - 1);
+  panes.setOverlay({ worst: shown.actual && worstPixel(), pixel: x >= 0 ? [x, y] : null, trace, step });
+  drawCommands(byId('commands'), { item, details: model.details, shown, index });
+  drawTracePanel(byId('trace'), { item, shown, x, y, trace, step, index, update, added: takeTrace });
+}
+
+function takeTrace(given) {
+  if (given.case === state().case) update({ x: given.pixel[0], y: given.pixel[1], step: 0 });
+  else if (cases.has(given.case)) {
+    goToCase(given.case);
+    update({ x: given.pixel[0], y: given.pixel[1], step: 0 });
+  } else say(`the trace is of ${given.case}, which is not in this run`);
+  drawTraceOfPixel();
+}
+
+function drawAll() {
+  shown = choose(state(), model.item, model.details, model.planesOf, index.outputs);
+  drawPictures();
+  drawToolbar(byId('toolbar'), { state: state(), shown, sources: [...model.planesOf.keys()], update });
+  drawPixelPanel();
+  drawTraceOfPixel();
+}
+
+const kPlaces = new Set(['z', 'cx', 'cy']);
+const kPixel = new Set(['x', 'y', 'step', 'follow']);
+
+function react(_, keys) {
+  if (keys.has('f')) {
+    byId('filter').value = state().f;
+    list.draw(state().f);
+    list.select(state().case);
+  }
+  const item = cases.get(state().case);
+  if (keys.has('case') && item) return void loadCase(item);
+  if (!model.item) return;
+  const isOnly = (allowed) => [...keys].every((key) => allowed.has(key) || kPlaces.has(key));
+  if (isOnly(kPlaces)) panes.draw();
+  else if (isOnly(new Set(['f']))) return;
+  else if (isOnly(new Set(['split']))) panes.draw();
+  else if (isOnly(kPixel)) {
+    drawPixelPanel();
+    drawTraceOfPixel();
+    panes.draw();
+  } else drawAll();
+}
+
+function goTo(by) {
+  const plane = shown.actual?.plane;
+  if (!plane || picture.rank.length === 0) return say('no pixel differs');
+  const [x, y] = currentPixel();
+  const at = picture.rank.indexOf(y * plane.width + x);
+  const next = picture.rank[at < 0 ? 0 : Math.min(picture.rank.length - 1, Math.max(0, at + by))];
+  update({ x: next % plane.width, y: Math.floor(next / plane.width) });
+}
+
+function movePixel(dx, dy, event) {
+  const plane = shown?.actual?.plane ?? shown?.expected?.plane;
+  if (!plane) return;
+  const by = event.shiftKey ? 8 : 1;
+  const [x, y] = currentPixel();
+  update({ x: Math.min(plane.width - 1, Math.max(0, x + dx * by)), y: Math.min(plane.height - 1, Math.max(0, y + dy * by)) });
+}
+
+function moveStep(by) {
+  if (!trace) return say('no trace of this pixel');
+  const most = Math.max(...trace.backends.map((record) => record.steps.length));
+  update({ step: Math.min(most - 1, Math.max(0, state().step + by)) });
+}
+
+function moveCase(by) {
+  goToCase(list.neighbour(state().case, by));
+}
+
+const toggle = (key, value, other) => update({ [key]: state()[key] === value ? other : value });
+
+const actions = {
+  '?': openHelp,
+  '/': () => byId('filter').focus(),
+  '[': () => moveCase(-1),
+  ']': () => moveCase(1),
+  b: () => toggle('layout', 'blink', 'side'),
+  d: () => toggle('layout', 'difference', 'side'),
+  e: (event) => update({ ev: Math.min(10, Math.max(-10, state().ev + (event.shiftKey ? -0.5 : 0.5))) }),
+  u: () => goTo(1),
+  y: () => goTo(-1),
+  w: () => { const worst = worstPixel(); if (worst) update({ x: worst[0], y: worst[1] }); },
+  PageUp: () => moveStep(-1),
+  PageDown: () => moveStep(1),
+  Home: () => { toggle('follow', 1, 0); say(state().follow ? 'the pixel follows the mouse' : 'the pixel stays'); },
+  '+': () => panes.zoomBy(1.5),
+  '=': () => panes.zoomBy(1.5),
+  '-': () => panes.zoomBy(1 / 1.5),
+  0: () => update({ z: 0, cx: 0.5, cy: 0.5 }),
+  ArrowLeft: (event) => movePixel(-1, 0, event),
+  ArrowRight: (event) => movePixel(1, 0, event),
+  ArrowUp: (event) => movePixel(0, -1, event),
+  ArrowDown: (event) => movePixel(0, 1, event),
+};
+for (let i = 1; i <= 9; ++i) actions[i] = () => shown?.names[i - 1] && update({ o: shown.names[i - 1], e: -1 });
+
+function openRun() {
+  const { run } = index;
+  const facts = [['started', run.started], ['took', `${formatShort(run.seconds)} s on ${run.cores} processors`], ['command', run.commandLine.join(' ')],
+    ['crossray', `${run.version}${run.commit ? `, commit ${run.commit}${run.modified ? ' with changes' : ''}` : ''}`],
+    ...Object.entries(run.compilers), ...(run.interrupted ? [['interrupted', 'cases that were not reached are absent']] : [])];
+  const rows = (pairs) => pairs.map(([name, text]) => h('tr', {}, h('th', { scope: 'row' }, name), h('td', {}, text)));
+  const section = (title, lines) => lines.length > 0 && h('section', {}, h('h3', {}, title), h('ul', {}, lines.map((line) => h('li', {}, line))));
+  openDialog('Run', h('table', { class: 'help' }, h('caption', { class: 'hidden' }, 'Facts'), h('tbody', {}, rows(facts))),
+    h('table', { class: 'help' }, h('caption', {}, 'Backends'), h('tbody', {}, rows(Object.entries(run.backends).map(([name, each]) => [name,
+      each.environmentError || [each.device, each.driver, each.api, each.cpu].filter(Boolean).join(' · ')])))),
+    section('Left out of this file', index.leftOut) || '', section('Broken case files', run.brokenFiles) || '');
+}
+
+function drawTop() {
+  const { counts } = index.run;
+  byId('counts').replaceChildren(
+    h('span', { class: counts.failed > 0 ? 'failed' : 'dim' }, `✕ ${counts.failed} failed`),
+    h('span', { class: 'passed' }, `✓ ${counts.passed} passed`), h('span', { class: 'dim' }, `– ${counts.skipped} skipped`));
+  const commit = index.run.commit ? ` · ${index.run.commit.slice(0, 8)}${index.run.modified ? '+' : ''}` : '';
+  byId('run-facts').textContent = `${index.run.started.replace('T', ' ').replace('Z', ' UTC')}${commit}`
+    + (index.leftOut.length > 0 ? ' · not all planes are in this file: see Run' : '');
+  byId('show-run').onclick = openRun;
+  byId('help').onclick = openHelp;
+  byId('theme').onclick = () => {
+    const isDark = getComputedStyle(document.documentElement).getPropertyValue('--is-dark').trim() === '1';
+    document.documentElement.dataset.theme = isDark ? 'light' : 'dark';
+    try { localStorage.setItem('crossray-theme', document.documentElement.dataset.theme); } catch { /* not kept then */ }
+  };
+  try { document.documentElement.dataset.theme = localStorage.getItem('crossray-theme') ?? ''; } catch { /* by the system */ }
+}
+
+function start() {
+  if (index.schema !== kSchema) throw new Error(`the data are ${index.schema}; this page reads ${kSchema}`);
+  drawTop();
+  const filter = byId('filter');
+  filter.value = state().f;
+  filter.addEventListener('input', () => update({ f: filter.value }));
+  filter.addEventListener('keydown', (event) => {
+    if (event.key === 'Enter' || event.key === 'ArrowDown') {
+      event.preventDefault();
+      byId('cases').focus();
+      if (!cases.has(state().case) || list.neighbour(state().case, 0) === null) goToCase(list.first());
+    }
+  });
+  list.draw(state().f);
+  listenToKeys(actions, (held) => panes.holdShift(held));
+  addEventListener('dragover', (event) => event.preventDefault());
+  addEventListener('drop', async (event) => {
+    event.preventDefault();
+    try {
+      for (const file of event.dataTransfer.files) takeTrace(addTrace(await file.text()));
+    } catch (error) {
+      say(`no trace: ${error.message}`);
+    }
+  });
+  const item = cases.get(state().case);
+  if (state().case !== '' && !item) say(`this run has no case ${state().case}`);
+  const first = item ?? cases.get(list.first());
+  if (first && first !== item) update({ case: first.name });
+  else if (first) loadCase(first);
+  else panes.message(h('p', {}, 'This run has no cases.'));
+  if (first && !item && !chooseBackend(first, '')) panes.message(h('p', {}, 'No backend has answered.'));
+}
+
+start();

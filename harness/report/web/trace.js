@@ -1,0 +1,135 @@
+// The bottom: what the ray of the pixel did, when a trace of it is at hand; else the command that prints it.
+import { traceCommand } from 'crossray/commands.js';
+import { loadPiece } from 'crossray/data.js';
+import { commandLine, h, say } from 'crossray/dom.js';
+import { formatShort } from 'crossray/numbers.js';
+
+const dropped = []; // traces that a person gave to the page
+
+function revive(value) {
+  if (Array.isArray(value)) return value.map(revive);
+  if (value && typeof value === 'object') return Object.fromEntries(Object.entries(value).map(([key, each]) => [key, revive(each)]));
+  return value === 'NaN' ? NaN : value === 'Infinity' ? Infinity : value === '-Infinity' ? -Infinity : value;
+}
+
+/** Takes the text of a trace; throws where it is none. Returns it. */
+export function addTrace(text) {
+  const trace = revive(JSON.parse(text));
+  if (trace.schema !== 'crossray-trace/1') throw new Error('no JSON of crossray trace --json');
+  dropped.unshift(trace);
+  return trace;
+}
+
+/** The trace of a case's pixel, or null. */
+export async function findTrace(index, name, x, y) {
+  const given = dropped.find((trace) => trace.case === name && trace.pixel[0] === x && trace.pixel[1] === y);
+  if (given) return given;
+  const known = index.traces.find((trace) => trace.case === name && trace.x === x && trace.y === y);
+  return known ? revive(await loadPiece(known.piece)) : null;
+}
+
+/** Pixels of a case that have a trace. */
+export function tracedPixels(index, name) {
+  return index.traces.filter((trace) => trace.case === name).map((trace) => [trace.x, trace.y])
+    .concat(dropped.filter((trace) => trace.case === name).map((trace) => trace.pixel));
+}
+
+const kColumns = ['step', 'level', 'cell', 'position, px', 'ray, m', 'nearest, m', 'farthest, m', '+ thick, m', 'intersection'];
+
+function stepRow(trace, record, number, step, chosen, choose) {
+  const parted = trace.parting && trace.parting.step >= 0 && number >= trace.parting.step;
+  const several = trace.backends.length > 1;
+  return h('tr', { class: `${number === chosen ? 'shown' : ''} ${parted ? 'parted' : ''}`, onclick: () => choose(number) },
+    [String(number), String(step.level), step.cell.join(','), step.positionSS.map((v) => v.toFixed(3)).join(', '),
+      ...[step.rayLinearDepth, step.nearest, step.farthest, step.nearestAndThickness].map((v) => formatShort(v, 6)),
+      step.intersection].map((text) => h('td', { class: 'number' }, text)),
+    several && h('td', {}, parted ? record.backend : ''));
+}
+
+function stepTable(trace, chosen, choose) {
+  const most = Math.max(...trace.backends.map((record) => record.steps.length));
+  const parted = trace.parting && trace.parting.step >= 0 ? trace.parting.step : most;
+  const rows = [];
+  for (let i = 0; i < most; ++i) {
+    for (const record of trace.backends) {
+      if (!record.steps[i]) continue;
+      rows.push(stepRow(trace, record, i, record.steps[i], chosen, choose));
+      if (i < parted) break; // both did the same
+    }
+  }
+  return h('table', { class: 'steps' },
+    h('caption', { class: 'hidden' }, 'Steps of the march'),
+    h('thead', {}, h('tr', {}, kColumns.map((name) => h('th', { scope: 'col' }, name)), trace.backends.length > 1 && h('th', { scope: 'col' }, 'backend'))),
+    h('tbody', {}, rows));
+}
+
+function facts(record) {
+  if (!record.traced) return `${record.backend}: this pixel traces no ray`;
+  return `${record.backend}: ${record.tracingModel}, ${record.hitSuccess}${record.reason === 'none' ? '' : ` (${record.reason})`}, `
+    + `${record.iterations} of ${record.maxIterations} steps, end (${record.endSS.map((v) => v.toFixed(2)).join(', ')}) px `
+    + `at ${formatShort(record.endLinearDepth, 6)} m, weight ${formatShort(record.hitWeight)}`;
+}
+
+function depthChart(trace, chosen) {
+  const record = trace.backends[0];
+  const steps = record.steps.filter((step) => Number.isFinite(step.rayLinearDepth));
+  if (steps.length < 2) return null;
+  const [width, height] = [250, 96];
+  const depths = steps.flatMap((step) => [step.rayLinearDepth, Math.min(step.nearest, 1e4)]).filter((v) => v > 0 && Number.isFinite(v));
+  const [low, high] = [Math.min(...depths), Math.min(Math.max(...depths), 4 * Math.max(...steps.map((s) => s.rayLinearDepth)))];
+  const x = (i) => 8 + (i / (steps.length - 1)) * (width - 16);
+  const y = (v) => height - 8 - ((Math.min(v, high) - low) / (high - low || 1)) * (height - 20);
+  const line = (key) => steps.map((step, i) => `${i === 0 ? 'M' : 'L'}${x(i).toFixed(1)} ${y(step[key]).toFixed(1)}`).join('');
+  const svg = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
+  svg.setAttribute('viewBox', `0 0 ${width} ${height}`);
+  svg.setAttribute('role', 'img');
+  svg.setAttribute('aria-label', 'Depth of the ray and nearest depth of the scene at each step');
+  svg.setAttribute('class', 'depth-chart');
+  const add = (tag, attributes, text) => {
+    const part = document.createElementNS('http://www.w3.org/2000/svg', tag);
+    for (const [name, value] of Object.entries(attributes)) part.setAttribute(name, value);
+    if (text) part.textContent = text;
+    svg.append(part);
+  };
+  add('path', { d: line('nearest'), class: 'scene' });
+  add('path', { d: line('rayLinearDepth'), class: 'ray' });
+  if (steps[chosen]) add('circle', { cx: x(chosen), cy: y(steps[chosen].rayLinearDepth), r: 3.5, class: 'here' });
+  add('text', { x: 8, y: 11 }, `${formatShort(high)} m`);
+  add('text', { x: 8, y: height - 1 }, `${formatShort(low)} m`);
+  add('text', { x: width - 8, y: 11, 'text-anchor': 'end' }, 'ray solid, scene dashed');
+  return svg;
+}
+
+function fileInput(added) {
+  return h('label', { class: 'file' }, 'or open its JSON: ', h('input', { type: 'file', accept: '.json,application/json', onchange: async (event) => {
+    try {
+      for (const file of event.target.files) added(addTrace(await file.text()));
+    } catch (error) {
+      say(`no trace: ${error.message}`);
+    }
+  } }));
+}
+
+/** `context`: {item, shown, x, y, trace (or null), step, index, update, added(trace)}. */
+export function drawTracePanel(box, context) {
+  const { item, shown, x, y, trace, step, index, update, added } = context;
+  const title = h('h2', {}, x >= 0 ? `Trace of pixel ${x}, ${y}` : 'Trace');
+  if (!trace) {
+    const others = tracedPixels(index, item.name);
+    const partner = shown.isAgainstBackend ? [shown.against.title] : shown.expectation?.source.startsWith('agree with ')
+      ? [shown.expectation.source.slice('agree with '.length)] : [];
+    box.replaceChildren(title,
+      x >= 0 ? commandLine('shows its ray', `${traceCommand(item.name, x, y, [shown.backend, ...partner])}`) : '',
+      x >= 0 ? commandLine('into this report', `${traceCommand(item.name, x, y, [shown.backend, ...partner], true)} > pixel.json && crossray report ${index.runFolder} --trace pixel.json`) : '',
+      fileInput(added),
+      others.length > 0 ? h('p', { class: 'dim' }, 'traced: ', others.map(([px, py]) => h('button', { type: 'button', class: 'small', onclick: () => update({ x: px, y: py }) }, `${px}, ${py}`))) : '');
+    return;
+  }
+  const scrolled = box.querySelector('.steps-box')?.scrollTop ?? 0;
+  const table = h('div', { class: 'steps-box', tabindex: '0', role: 'region', 'aria-label': 'Steps' }, stepTable(trace, step, (value) => update({ step: value })));
+  box.replaceChildren(title, h('div', { class: 'trace-facts' }, trace.backends.map((record) => h('p', {}, facts(record))),
+    trace.parting && h('p', { class: 'warn' }, trace.parting.sentence)),
+  h('div', { class: 'trace-body' }, table, depthChart(trace, step) ?? ''));
+  table.scrollTop = scrolled;
+  table.querySelector('tr.shown')?.scrollIntoView({ block: 'nearest' });
+}
