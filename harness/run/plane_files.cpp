@@ -59,6 +59,7 @@ void startRunFolder(const fs::path& folder)
     RunResult begun;
     begun.interrupted = true;
     writeFileWhole(json, formatRunJson(begun));
+    fs::remove(folder / "report" / "index.html", failure); // pages of the last run would be taken for this one's
     fs::remove_all(planes, failure);
     if (failure) {
         throw EnvironmentError(
