@@ -40,6 +40,13 @@ if(TARGET test_run)
   add_dependencies(test_run worker_program)
 endif()
 
+# What holds over any image, on each driver.
+file(GLOB property_test_sources CONFIGURE_DEPENDS tests/property/*.cpp)
+if(TARGET test_run)
+  crossray_test_program(test_property SOURCES ${property_test_sources} USES crossray_run PREFIX property.)
+  add_dependencies(test_property worker_program)
+endif()
+
 # The shader library as C++: the same tests once in float and once in double, and the same .glsl files that ship.
 file(GLOB shader_test_sources CONFIGURE_DEPENDS tests/shader/*_test.cpp)
 foreach(precision 32 64)

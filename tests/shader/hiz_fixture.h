@@ -19,12 +19,12 @@ vec2 fetchDepthPyramid(ivec2 cell, int level)
 {
     if (level < 0 || level >= static_cast<int>(gPyramid.levels.size())) {
         ++gBadReads;
-        return vec2(kSkyLinearDepth, 0);
+        return vec2(kSkyLinearDepth);
     }
     const PyramidLevel& l = gPyramid.levels[static_cast<size_t>(level)];
     if (cell.x < 0 || cell.y < 0 || cell.x >= l.size.x || cell.y >= l.size.y) {
         ++gBadReads;
-        return vec2(kSkyLinearDepth, 0);
+        return vec2(kSkyLinearDepth);
     }
     return l.cells[static_cast<size_t>(cell.y * l.size.x + cell.x)];
 }

@@ -228,9 +228,10 @@ TEST(ShaderHiz, AllDepthConventionsAgree)
     }
 }
 
-// Any depth image, any ray, any settings: finite answers, no read outside the pyramid, no more iterations than allowed,
-// and no hit where the ray is nowhere near the depth.
-RC_GTEST_PROP(ShaderHiz, ClaimsNothingFarFromTheDepth, ())
+namespace {
+
+// A tilted plane with noise and holes, as a pyramid.
+View drawTiltedImage()
 {
     const ivec2 size(*rc::gen::inRange(1, 34), *rc::gen::inRange(1, 34));
     const bool orthographic = *rc::gen::inRange(0, 4) == 0;
@@ -242,10 +243,45 @@ RC_GTEST_PROP(ShaderHiz, ClaimsNothingFarFromTheDepth, ())
         for (int x = 0; x < size.x; ++x) {
             const vec2 uv = vec2(ivec2(x, y)) / vec2(size);
             const Real depth = 6 + 2 * dot(tilt, uv) + roughness * drawReal(-1, 1);
-            texels.push_back(*rc::gen::inRange(0, 12) == 0 ? vec2(kSkyLinearDepth, 0) : vec2(depth));
+            texels.push_back(*rc::gen::inRange(0, 12) == 0 ? vec2(kSkyLinearDepth) : vec2(depth));
         }
     }
     buildPyramid(size, texels);
+    return view;
+}
+
+} // namespace
+
+// The coarser levels only save reads: whatever the maximum level, each ray ends in the same place, in the same class.
+RC_GTEST_PROP(ShaderHiz, TheMaximumLevelChangesTheCostAlone, ())
+{
+    const View view = drawTiltedImage();
+    const int minLevel = *rc::gen::inRange(0, 3);
+    const Real bias = *rc::gen::element(Real(0), Real(0.2), Real(2));
+    for (int ray = 0; ray < 10; ++ray) {
+        const ivec2 size(view.imageSize);
+        const ivec2 pixel(*rc::gen::inRange(0, size.x), *rc::gen::inRange(0, size.y));
+        const Real seen = fetchDepthPyramid(pixel, 0).x;
+        const bool stands = !isSkyDepth(seen) && *rc::gen::inRange(0, 2) == 0;
+        const vec3 origin = positionWSFromSS(view, vec2(pixel) + vec2(stands ? Real(0.5) : drawReal(0, 1)),
+                                             stands ? seen : drawReal(Real(0.2), 12));
+        const vec3 dir = drawUnitVector<vec3>();
+        const TraceResult expected = traceHiz(view, origin, dir, HizSettings(minLevel, minLevel, 9999, bias));
+        const TraceResult actual =
+            traceHiz(view, origin, dir, HizSettings(minLevel, *rc::gen::inRange(minLevel, 9), 9999, bias));
+        RC_ASSERT(actual.hitClass == expected.hitClass);
+        RC_ASSERT(actual.reason == expected.reason);
+        RC_ASSERT(actual.positionSS == expected.positionSS);
+        RC_ASSERT(actual.linearDepth == expected.linearDepth);
+    }
+}
+
+// Any depth image, any ray, any settings: finite answers, no read outside the pyramid, no more iterations than allowed,
+// and no hit where the ray is nowhere near the depth.
+RC_GTEST_PROP(ShaderHiz, ClaimsNothingFarFromTheDepth, ())
+{
+    const View view = drawTiltedImage();
+    const ivec2 size(view.imageSize);
     const ivec2 pixel(*rc::gen::inRange(0, size.x), *rc::gen::inRange(0, size.y));
     const vec2 startSS = vec2(pixel) + vec2(drawReal(0, 1), drawReal(0, 1));
     const vec3 origin = positionWSFromSS(view, startSS, drawReal(Real(0.2), 12));
@@ -266,11 +302,15 @@ RC_GTEST_PROP(ShaderHiz, ClaimsNothingFarFromTheDepth, ())
     const ivec2 cells = depthPyramidSize(level);
     const ivec2 at = computeDepthPyramidCell(ivec2(floor(r.positionSS)), level, cells);
     Real near = 1e9, far = 0;
-    for (int y = max(at.y - 2, 0); y <= min(at.y + 2, cells.y - 1); ++y) {
-        for (int x = max(at.x - 2, 0); x <= min(at.x + 2, cells.x - 1); ++x) {
-            const vec2 depths = fetchDepthPyramid(ivec2(x, y), level);
-            near = std::min(near, depths.x);
-            far = std::max(far, depths.y);
+    const CellSpan left = computeCellSpan(max(at.x - 2, 0), level, cells.x, size.x);
+    const CellSpan right = computeCellSpan(min(at.x + 2, cells.x - 1), level, cells.x, size.x);
+    const CellSpan top = computeCellSpan(max(at.y - 2, 0), level, cells.y, size.y);
+    const CellSpan bottom = computeCellSpan(min(at.y + 2, cells.y - 1), level, cells.y, size.y);
+    for (int y = top.begin; y < bottom.end; ++y) {
+        for (int x = left.begin; x < right.end; ++x) {
+            const Real depth = fetchDepthPyramid(ivec2(x, y), 0).x;
+            near = std::min(near, depth);
+            if (!isSkyDepth(depth)) far = std::max(far, depth);
         }
     }
     const Real nearAffine = affineDepthFromLinear(view.orthographic, near),

@@ -217,7 +217,7 @@ RC_GTEST_PROP(ShaderLinear, AnswersAnything, ())
     const View view = makeView(vec2(size), kHalfFov, Real(0.1), 100, *rc::gen::inRange(0, 3));
     std::vector<vec2> texels;
     for (int i = 0; i < size.x * size.y; ++i)
-        texels.push_back(*rc::gen::inRange(0, 5) == 0 ? vec2(kSkyLinearDepth, 0) : vec2(drawReal(Real(0.2), 9)));
+        texels.push_back(*rc::gen::inRange(0, 5) == 0 ? vec2(kSkyLinearDepth) : vec2(drawReal(Real(0.2), 9)));
     buildPyramid(size, texels);
     const LinearSettings settings(drawHostile(), *rc::gen::inRange(-1, 9), *rc::gen::inRange(-1, 300), drawHostile(),
                                   *rc::gen::inRange(-1, 7));

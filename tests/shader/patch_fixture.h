@@ -82,41 +82,4 @@ inline void buildSurfacePyramid(const View& view, Real depthError = 0)
     }
 }
 
-// Every pixel in turn, by the simplest loop there is: over the nearer border of the pixel, in x first where both are
-// as near. Shares with the tracer what one pixel decides, and nothing of how it moves.
-inline PatchTraceResult traceEveryPixel(const View& view, vec3 originWS, vec3 dirWS, PatchTracerSettings settings)
-{
-    const ScreenRay ray = makeScreenRay(view, originWS, dirWS);
-    const PatchTraceResult none = PatchTraceResult(0, 0, vec2(0.0), 0.0, 0, 0, 0, 0.0);
-    if (ray.status != kHitReasonNone) return makePatchEnd(view, ray, 0, ray.status, none);
-    if (!isOnScreen(view, ray.startSS)) return makePatchEnd(view, ray, 0, kHitReasonOffScreen, none);
-    const ivec2 size(view.imageSize);
-    const ivec2 start = min(ivec2(floor(ray.startSS)), size - ivec2(1));
-    const PatchWalk walk = makePatchWalk(ray, start, settings.depthError);
-    PatchState state = PatchState(start, 0, true, HiddenStart(start, 0), kNoClearance);
-    const int stepX = ray.deltaSS.x > 0 ? 1 : -1;
-    const int stepY = ray.deltaSS.y > 0 ? 1 : -1;
-    for (;;) {
-        const Real toX = ray.deltaSS.x == 0
-                             ? kNever
-                             : (static_cast<Real>(state.pixel.x + (stepX > 0)) - ray.startSS.x) / ray.deltaSS.x;
-        const Real toY = ray.deltaSS.y == 0
-                             ? kNever
-                             : (static_cast<Real>(state.pixel.y + (stepY > 0)) - ray.startSS.y) / ray.deltaSS.y;
-        const PatchCell cell = enterPatchCell(view, walk, state);
-        const PixelTest test = testPixel(view, walk, cell, state, settings.caution);
-        if (test.isHit) return makePatchHit(view, walk, cell, test, none);
-        if (test.isRefused) return makePatchEnd(view, ray, cell.enter, kHitReasonBehindSurface, none);
-        state = PatchState(state.pixel, 0, test.inFront, test.hidden, test.clearance);
-        const bool ends = !(std::min(toX, toY) < 1);
-        if (toX <= toY)
-            state.pixel.x += stepX;
-        else
-            state.pixel.y += stepY;
-        const bool leaves =
-            state.pixel.x < 0 || state.pixel.y < 0 || state.pixel.x >= size.x || state.pixel.y >= size.y;
-        if (!ends && !leaves) continue;
-        const int reason = ends ? ray.endReason : kHitReasonOffScreen;
-        return makePatchEnd(view, ray, cell.leave, test.inFront ? reason : kHitReasonBehindSurface, none);
-    }
-}
+#include "tests/property/every_pixel_walk.glsl"

@@ -15,15 +15,15 @@
 #include "crossray/core/math.glsl"
 #include "crossray/core/view.glsl"
 
-// Metres: the nearest depth of a cell that holds no surface. Its farthest depth is 0, so that sky neither stops a ray
-// in front of it nor keeps a cell from being passed behind.
+// Metres: the depth of sky. As the nearest depth it stops no ray; as the farthest it keeps a cell that shows some sky
+// from being passed behind in one step: a hidden ray is in sight again before the sky.
 const float kSkyLinearDepth = 1e30;
 
 // (nearest, farthest) of a pixel. Cleared, NaN and impossible values are sky.
 vec2 makeDepthPyramidTexel(View view, float deviceDepth)
 {
     float linearDepth = linearDepthFromDevice(view, deviceDepth);
-    return choose(isClearedDepth(view, deviceDepth), vec2(kSkyLinearDepth, 0.0), vec2(linearDepth));
+    return choose(isClearedDepth(view, deviceDepth), vec2(kSkyLinearDepth), vec2(linearDepth));
 }
 
 // Cells of a level; sizes below 1 count as 1.

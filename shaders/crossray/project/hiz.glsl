@@ -20,6 +20,9 @@
 // unknown, kHitReasonBehindSurface. A start off screen or behind the eye is unknown, a ray without direction
 // kHitClassNoRaycast.
 //
+// The maximum level changes the cost alone: pixels are visited in one order, the cells of the minimum level decide by
+// the same expressions, and a coarser cell is skipped only where none of them would do anything else.
+//
 // Minimum levels above 0 test whole cells: hits are as exact as a cell's plane fits, and the start's cell is never hit.
 #ifndef CROSSRAY_PROJECT_HIZ_GLSL
 #define CROSSRAY_PROJECT_HIZ_GLSL
@@ -85,6 +88,7 @@ struct HizCell {
     ivec2 begin; // pixels [begin, end)
     ivec2 end;
     vec2 depths;      // nearest, farthest
+    float enter;      // s from which the cell is judged
     float leave;      // s where the ray leaves it, at most 1
     ivec2 leavePixel; // the first pixel after it
     bool leavesImage;
@@ -111,17 +115,15 @@ HizSettings sanitizeHizSettings(HizSettings settings)
     return HizSettings(minLevel, clamp(settings.maxLevel, minLevel, last), max(settings.maxIterations, 0), bias);
 }
 
-// The pixel in which the ray is at s, inside [begin, end) and never before the pixel in which it was: rounding cannot
-// turn it back.
-ivec2 computeHizPixel(ScreenRay ray, ivec2 begin, ivec2 end, ivec2 before, float s)
+// Where a ray comes into a cell, or starts.
+float computeHizEntry(ScreenRay ray, ivec2 begin, ivec2 end)
 {
-    vec2 positionSS = clamp(screenRayPositionSS(ray, s), vec2(begin), vec2(end));
-    ivec2 pixel = clamp(ivec2(floor(positionSS)), begin, end - ivec2(1));
-    return ivec2(choose(ray.deltaSS.x < 0.0, min(pixel.x, before.x), max(pixel.x, before.x)),
-                 choose(ray.deltaSS.y < 0.0, min(pixel.y, before.y), max(pixel.y, before.y)));
+    float byX = borderTime(ray.startSS.x, ray.deltaSS.x, choose(ray.deltaSS.x > 0.0, begin.x, end.x));
+    float byY = borderTime(ray.startSS.y, ray.deltaSS.y, choose(ray.deltaSS.y > 0.0, begin.y, end.y));
+    return clamp(max(byX, byY), 0.0, 1.0);
 }
 
-HizCell enterHizCell(ScreenFrame frame, ScreenRay ray, HizState state)
+HizCell enterHizCell(ScreenFrame frame, ScreenRay ray, HizState state, bool isFinest)
 {
     ivec2 cells = depthPyramidSize(state.level);
     ivec2 cell = computeDepthPyramidCell(state.pixel, state.level, cells);
@@ -129,24 +131,30 @@ HizCell enterHizCell(ScreenFrame frame, ScreenRay ray, HizState state)
     CellSpan y = computeCellSpan(cell.y, state.level, cells.y, frame.imageSize.y);
     ivec2 begin = ivec2(x.begin, y.begin);
     ivec2 end = ivec2(x.end, y.end);
-    bool runsLeft = ray.deltaSS.x < 0.0;
-    bool runsUp = ray.deltaSS.y < 0.0;
-    vec2 border = vec2(float(choose(runsLeft, begin.x, end.x)), float(choose(runsUp, begin.y, end.y)));
-    vec2 toBorder = (border - ray.startSS) / ray.deltaSS;
-    float leave = max(min(toBorder.x, toBorder.y), state.s);
+    vec2 start = ray.startSS;
+    vec2 delta = ray.deltaSS;
+    bool runsLeft = delta.x < 0.0;
+    bool runsUp = delta.y < 0.0;
+    float leaveX = borderTime(start.x, delta.x, choose(runsLeft, begin.x, end.x));
+    float leaveY = borderTime(start.y, delta.y, choose(runsUp, begin.y, end.y));
+    // At the minimum level the whole way through the cell counts, wherever the march came down to it.
+    float enter = choose(isFinest, computeHizEntry(ray, begin, end), state.s);
+    float leave = max(min(leaveX, leaveY), enter);
     bool goesOn = leave < 1.0;
     leave = min(leave, 1.0);
 
-    // Exactly over the border by which the ray leaves.
-    ivec2 inside = computeHizPixel(ray, begin, end, state.pixel, leave);
-    ivec2 overX = ivec2(choose(runsLeft, begin.x - 1, end.x), inside.y);
-    ivec2 overY = ivec2(inside.x, choose(runsUp, begin.y - 1, end.y));
-    ivec2 leavePixel = choose(toBorder.x <= toBorder.y, overX, overY);
+    // Exactly over the border by which the ray leaves, in x first where it leaves by both.
+    bool leavesByX = leaveX <= leaveY;
+    int nextX =
+        choose(leavesByX, choose(runsLeft, begin.x - 1, end.x), pixelAt(start.x, delta.x, state.pixel.x, leave, true));
+    int nextY =
+        choose(leavesByX, pixelAt(start.y, delta.y, state.pixel.y, leave, false), choose(runsUp, begin.y - 1, end.y));
+    ivec2 leavePixel = ivec2(nextX, nextY);
     bool staysInside = all(equal(leavePixel, clamp(leavePixel, ivec2(0), frame.imageSize - ivec2(1))));
-    float enterDepth = linearDepthFromAffine(frame.orthographic, screenRayAffineDepth(ray, state.s));
+    float enterDepth = linearDepthFromAffine(frame.orthographic, screenRayAffineDepth(ray, enter));
     float leaveDepth = linearDepthFromAffine(frame.orthographic, screenRayAffineDepth(ray, leave));
-    return HizCell(cell, begin, end, fetchDepthPyramid(cell, state.level), leave, leavePixel, goesOn && !staysInside,
-                   !goesOn, min(enterDepth, leaveDepth), max(enterDepth, leaveDepth));
+    return HizCell(cell, begin, end, fetchDepthPyramid(cell, state.level), enter, leave, leavePixel,
+                   goesOn && !staysInside, !goesOn, min(enterDepth, leaveDepth), max(enterDepth, leaveDepth));
 }
 
 // The ray against the plane of a cell at the minimum level.
@@ -155,12 +163,12 @@ HizTest testHizPlane(ScreenFrame frame, ScreenRay ray, HizState state, HizCell c
     // A ray that starts on an edge is in front of the side that falls away from it.
     vec2 favourSS = choose(state.isStart, ray.deltaSS, vec2(0.0));
     DepthPatch plane = fitDepthPatch(frame, cell.cell, state.level, cell.depths.x, favourSS);
-    float rayAffine = screenRayAffineDepth(ray, state.s);
-    float planeAffine = patchAffineDepth(plane, screenRayPositionSS(ray, state.s));
+    float rayAffine = screenRayAffineDepth(ray, cell.enter);
+    float planeAffine = patchAffineDepth(plane, screenRayPositionSS(ray, cell.enter));
     float planeRate = dot(plane.gradient, ray.deltaSS);
     float rate = ray.deltaAffineDepth - planeRate;
     float enter = rayAffine - planeAffine; // above 0: in front
-    float leave = enter + rate * (cell.leave - state.s);
+    float leave = enter + rate * (cell.leave - cell.enter);
 
     float tolerance = kHizStartTolerance * abs(plane.affineDepth);
     float noise = choose(state.attached, tolerance, 0.0);
@@ -172,8 +180,8 @@ HizTest testHizPlane(ScreenFrame frame, ScreenRay ray, HizState state, HizCell c
     // Came in behind: did it cross the plane at most a cell's length before, or is it in what the depth bias makes
     // solid?
     int cellPixels = max(cell.end.x - cell.begin.x, cell.end.y - cell.begin.y);
-    float crossing = state.s - safeDivide(enter, rate, 0.0);
-    bool isRecent = state.s - crossing <= float(cellPixels) * ray.pixelLength;
+    float crossing = cell.enter - safeDivide(enter, rate, 0.0);
+    bool isRecent = cell.enter - crossing <= float(cellPixels) * ray.pixelLength;
     bool crossed = sinks && isRecent;
     float behind =
         linearDepthFromAffine(frame.orthographic, rayAffine) - linearDepthFromAffine(frame.orthographic, planeAffine);
@@ -191,12 +199,12 @@ HizTest testHizPlane(ScreenFrame frame, ScreenRay ray, HizState state, HizCell c
     bool hit = state.isStart ? hitsFromStart : hitsElsewhere;
 
     bool isCrossing = crosses || crossed;
-    float sCrossing = clamp(crossing, choose(isBehind, 0.0, state.s), cell.leave);
-    float sHit = choose(isCrossing, sCrossing, state.s);
-    float hitAffine = choose(isCrossing, planeAffine + planeRate * (sCrossing - state.s), rayAffine);
+    float sCrossing = clamp(crossing, choose(isBehind, 0.0, cell.enter), cell.leave);
+    float sHit = choose(isCrossing, sCrossing, cell.enter);
+    float hitAffine = choose(isCrossing, planeAffine + planeRate * (sCrossing - cell.enter), rayAffine);
     // A ray that sinks into the plane on which it stands is behind it at once, be the gap as small as it may.
     // Judged over a pixel at least: a ray may start at its cell's border.
-    bool sinksAtStart = rate * max(cell.leave - state.s, ray.pixelLength) < -kHizSinkTolerance * tolerance;
+    bool sinksAtStart = rate * max(cell.leave - cell.enter, ray.pixelLength) < -kHizSinkTolerance * tolerance;
     bool isInFront = leave >= -choose(isBehind, 0.0, noise);
     bool inFront = isInFront && !(state.isStart && sinksAtStart);
     bool isClose = leave <= tolerance && inFront;
@@ -233,9 +241,8 @@ HizTest testHizCell(ScreenFrame frame, ScreenRay ray, HizState state, HizCell ce
     closer = choose(isClear, cell.leave, closer);
 
     bool isHidden = isPassed && !state.isStart;
-    bool staysAttached = state.attached && !isClear;
-    bool keepsAttached = staysAttached && !isPassed;
     bool inFront = isClear || (state.inFront && !isSkipped);
+    bool keepsAttached = state.attached && !isSkipped;
     HizTest test =
         HizTest(choose(isSkipped, kIntersectionNone, kIntersectionCell), closer, 0.0, inFront, keepsAttached, isHidden);
     bool isTested = isFinest && !isSkipped;
@@ -243,13 +250,25 @@ HizTest testHizCell(ScreenFrame frame, ScreenRay ray, HizState state, HizCell ce
     return test;
 }
 
+// The pixel from which a cell is looked at closer: the one in which the ray is just before s. All pixels before it must
+// be clear by themselves, which rounding may deny; then the march stays where it is.
+ivec2 computeHizCloserPixel(ScreenFrame frame, ScreenRay ray, HizState state, HizCell cell, float s)
+{
+    ivec2 pixel = ivec2(pixelAt(ray.startSS.x, ray.deltaSS.x, state.pixel.x, s, false),
+                        pixelAt(ray.startSS.y, ray.deltaSS.y, state.pixel.y, s, false));
+    float entry = computeHizEntry(ray, pixel, pixel + ivec2(1));
+    float depth = linearDepthFromAffine(frame.orthographic, screenRayAffineDepth(ray, entry));
+    float margin = choose(state.attached, 1.0 + kHizStartTolerance, 1.0);
+    return choose(depth * margin < cell.depths.x, pixel, state.pixel);
+}
+
 // Down a level where the cell needs a closer look; else into the next cell, and up a level after a skip.
-HizState stepHiz(ScreenRay ray, HizState state, HizCell cell, HizTest test, HizSettings settings)
+HizState stepHiz(ScreenFrame frame, ScreenRay ray, HizState state, HizCell cell, HizTest test, HizSettings settings)
 {
     bool isSkipped = test.kind == kIntersectionNone;
     bool isFinest = state.level == settings.minLevel;
     bool descends = !(isSkipped || isFinest);
-    ivec2 closerPixel = computeHizPixel(ray, cell.begin, cell.end, state.pixel, test.s);
+    ivec2 closerPixel = computeHizCloserPixel(frame, ray, state, cell, test.s);
     int levelAfter = choose(isSkipped, min(state.level + 1, settings.maxLevel), state.level);
     bool isHidden = test.isHidden && !descends;
     return HizState(choose(descends, test.s, cell.leave), choose(descends, closerPixel, cell.leavePixel),
@@ -287,14 +306,14 @@ TraceResult traceHiz(View view, vec3 originWS, vec3 dirWS, HizSettings userSetti
     float endS = 0.0;
     float endAffine = ray.startAffineDepth;
     for (int i = 0; i < limit; ++i) {
-        HizCell cell = enterHizCell(frame, ray, state);
+        HizCell cell = enterHizCell(frame, ray, state, state.level == settings.minLevel);
         HizTest test = testHizCell(frame, ray, state, cell, settings);
         recordHizStep(makeHizStep(frame, ray, state, cell, test.kind, i, settings.depthBias));
         bool descends = test.kind == kIntersectionCell && state.level > settings.minLevel;
         maxUsedLevel = max(maxUsedLevel, state.level);
         iterations = i + 1;
         kind = test.kind;
-        state = stepHiz(ray, state, cell, test, settings);
+        state = stepHiz(frame, ray, state, cell, test, settings);
 
         int reason = choose(cell.leavesImage, kHitReasonOffScreen, kHizRuns);
         reason = choose(cell.isLast, ray.endReason, reason);

@@ -68,7 +68,6 @@ const float kPatchTolerance = 0.000003814697265625; // 2^-18
 // A ray this near to the plane of its start stands on it: what moving a position to world space and back costs.
 const float kPatchStartTolerance = 0.0009765625; // 2^-10
 const float kNoClearance = 1e30;                 // of a ray that was never hidden
-const float kNever = 1e30;                       // s of what does not happen
 
 // Where a ray went out of sight.
 struct HiddenStart {
@@ -120,43 +119,6 @@ struct PixelTest {
     HiddenStart hidden;
     float clearance;
 };
-
-float borderTime(float start, float delta, int border)
-{
-    return delta == 0.0 ? kNever : (float(border) - start) / delta;
-}
-
-// The border of a pixel over which a ray comes in, or goes out.
-int entryBorder(int pixel, float delta)
-{
-    return delta > 0.0 ? pixel : pixel + 1;
-}
-
-int exitBorder(int pixel, float delta)
-{
-    return delta > 0.0 ? pixel + 1 : pixel;
-}
-
-// Pixel along one axis, starting at `from`, when all borders up to s are crossed; a border crossed exactly at s counts
-// where isInclusive. The guess is at most a pixel off by rounding; the comparisons make it exact.
-int pixelAt(float start, float delta, int from, float s, bool isInclusive)
-{
-    if (delta == 0.0) return from;
-    int direction = delta > 0.0 ? 1 : -1;
-    int guess = int(floor(clamp(start + delta * s, -2.0, 1e6)));
-    guess = delta > 0.0 ? max(guess, from) : min(guess, from);
-    for (int i = 0; i < 2; ++i) {
-        float entered = borderTime(start, delta, entryBorder(guess, delta));
-        bool isIn = isInclusive ? entered <= s : entered < s;
-        if (guess != from && !isIn) guess = guess - direction;
-    }
-    for (int i = 0; i < 2; ++i) {
-        float left = borderTime(start, delta, exitBorder(guess, delta));
-        bool isOut = isInclusive ? left <= s : left < s;
-        if (isOut) guess = guess + direction;
-    }
-    return guess;
-}
 
 // Where two borders are crossed at once, the one in x is first.
 PixelEntry computePixelEntry(PatchWalk walk, ivec2 pixel)

@@ -54,6 +54,47 @@ float screenRayAffineDepth(ScreenRay ray, float s)
     return ray.startAffineDepth + ray.deltaAffineDepth * s;
 }
 
+const float kNever = 1e30; // s of what does not happen
+
+// Where a ray crosses the border between pixels border - 1 and border along one axis. Every walk asks by this
+// expression alone, so that all of them agree on the order of the pixels, whatever rounding does.
+float borderTime(float start, float delta, int border)
+{
+    return delta == 0.0 ? kNever : (float(border) - start) / delta;
+}
+
+// The border of a pixel over which a ray comes in, or goes out.
+int entryBorder(int pixel, float delta)
+{
+    return delta > 0.0 ? pixel : pixel + 1;
+}
+
+int exitBorder(int pixel, float delta)
+{
+    return delta > 0.0 ? pixel + 1 : pixel;
+}
+
+// Pixel along one axis, starting at `from`, when all borders up to s are crossed; a border crossed exactly at s counts
+// where isInclusive. The guess is at most a pixel off by rounding; the comparisons make it exact.
+int pixelAt(float start, float delta, int from, float s, bool isInclusive)
+{
+    if (delta == 0.0) return from;
+    int direction = delta > 0.0 ? 1 : -1;
+    int guess = int(floor(clamp(start + delta * s, -2.0, 1e6)));
+    guess = delta > 0.0 ? max(guess, from) : min(guess, from);
+    for (int i = 0; i < 2; ++i) {
+        float entered = borderTime(start, delta, entryBorder(guess, delta));
+        bool isIn = isInclusive ? entered <= s : entered < s;
+        if (guess != from && !isIn) guess = guess - direction;
+    }
+    for (int i = 0; i < 2; ++i) {
+        float left = borderTime(start, delta, exitBorder(guess, delta));
+        bool isOut = isInclusive ? left <= s : left < s;
+        if (isOut) guess = guess + direction;
+    }
+    return guess;
+}
+
 // The ray from its origin to the near plane, the far plane, or 65504 m, whichever comes first. Status:
 // kHitReasonDegenerateRay for input that is not finite or has no direction; kHitReasonNearPlane when it starts at or
 // before the near plane and does not run away from the eye, or starts behind the eye; kHitReasonSky when it starts
