@@ -33,6 +33,7 @@ constexpr std::array kOutputs{
     OutputInfo{23, "Transmittance", OutputType::kColor, 3, "", "Share of light that the way inside the material leaves."},
     OutputInfo{24, "ColorMipLevel", OutputType::kScalar, 1, "", "Level of the previous frame's colour pyramid that was read."},
     OutputInfo{25, "HistoryUV", OutputType::kScalar, 2, "", "Where the hit was on screen in the previous frame; 0 where it was not."},
+    OutputInfo{26, "FetchCount", OutputType::kCount, 1, "", "Reads of the depth buffer or a pyramid of it that finding the hit took."},
 };
 
 } // namespace

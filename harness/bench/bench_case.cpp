@@ -4,6 +4,7 @@
 #include "harness/bench/tracer_yardstick.h"
 #include "harness/compile/spirv_module.h"
 #include "harness/pass/pass.h"
+#include "harness/run/case_flight.h"
 #include "harness/run/execute.h"
 #include "harness/run/worker_explain.h"
 
@@ -18,11 +19,13 @@ namespace {
 
 constexpr int kGroup = 32;
 
-void setOutputs(Case& testCase)
+// `counts`: with the counters, which cost time themselves.
+void setOutputs(Case& testCase, bool counts)
 {
     testCase.expectations.clear();
     testCase.outputs.clear();
     std::vector<const char*> names{"RayDirWS", "HitDepth", "HitSuccess", "IterationCount", "HitPositionSS"};
+    if (counts) names.push_back("FetchCount");
     if (testCase.effect == TraceEffect::kRefraction) names.insert(names.end(), {"PathLength", "RayOriginWS"});
     if (const BenchFamily* family = findBenchFamily(testCase.benchFamily)) names = family->outputs;
     for (const OutputInfo& output : allOutputs()) {
@@ -75,15 +78,13 @@ void judgeReflections(const Truth& truth, const Answers& answers, BenchPoint& po
     const Plane& hits = answers.plane("HitSuccess");
     const Plane& positions = answers.plane("HitPositionSS");
     const Plane& depths = answers.plane("HitDepth");
-    const Plane& steps = answers.plane("IterationCount");
     double answerable = 0, right = 0, falseHits = 0, rays = 0;
-    std::vector<double> pixels, depthErrors, iterations;
+    std::vector<double> pixels, depthErrors;
     for (int y = 0; y < truth.height; ++y) {
         for (int x = 0; x < truth.width; ++x) {
             const TruthPixel& pixel = truth.at(x, y);
             if (pixel.screen == ScreenKnowledge::kNoRay) continue;
             rays += 1;
-            iterations.push_back(answers.at(steps, x, y));
             const bool isHit = answers.at(hits, x, y) == static_cast<double>(HitClass::kHit);
             if (pixel.screen != ScreenKnowledge::kVisible) {
                 falseHits += isHit;
@@ -107,8 +108,6 @@ void judgeReflections(const Truth& truth, const Answers& answers, BenchPoint& po
     point.errors["False"] = share(falseHits, rays - answerable);
     point.errors["HitDepth"] = meanOf(depthErrors);
     point.errors["HitPositionSS"] = medianOf(pixels);
-    point.counters["Iterations"] = meanOf(iterations);
-    point.counters["IterationsOf32"] = meanOfGroupMaxima(iterations);
 }
 
 glm::dvec3 vectorAt(const Answers& answers, const Plane& plane, int x, int y)
@@ -168,7 +167,7 @@ Job makeCaptureJob(int size, ShaderCompiler& compiler, const Folders& folders, P
 }
 
 Runner makeRunner(const Case& testCase, const BenchMethod& method, ShaderCompiler& compiler, const Folders& folders,
-                  Precision precision)
+                  Precision precision, bool counts)
 {
     Runner runner;
     runner.testCase = testCase;
@@ -177,7 +176,7 @@ Runner makeRunner(const Case& testCase, const BenchMethod& method, ShaderCompile
     runner.scale = method.scale;
     runner.testCase.camera.width = std::max(1, testCase.camera.width / method.scale);
     runner.testCase.camera.height = std::max(1, testCase.camera.height / method.scale);
-    setOutputs(runner.testCase);
+    setOutputs(runner.testCase, counts);
     runner.job = buildJob(CaseData(runner.testCase), compiler, folders.shaders, precision);
     if (method.captureSize > 0) runner.capture = makeCaptureJob(method.captureSize, compiler, folders, precision);
     return runner;
@@ -217,22 +216,25 @@ BenchTime summarize(const std::vector<double>& milliseconds, double baseline)
     return time;
 }
 
-// Reads of the library's tracers, counted by the same shaders on the CPU: the tracer that does what the case asks for.
-void countFetches(const YardstickScene& scene, const Projection& projection, BenchPoint& point)
+// What the method cost, a pixel of the full image: an answer at half size stands for four. A proxy reads nothing but
+// the pixel's own depth, which counts as one.
+void countCost(const Truth& truth, const Answers& answers, BenchPoint& point)
 {
-    if (projection.model == ProjectionModel::kLinear) { // a fetch an iteration, and 9 at the start
-        point.counters["Fetches"] = point.counters["Iterations"] + 9;
-        point.counters["FetchesOf32"] = point.counters["IterationsOf32"] + 9;
-        return;
+    const Plane& steps = answers.plane("IterationCount");
+    const Plane& reads = answers.plane("FetchCount");
+    std::vector<double> iterations, fetches;
+    for (int y = 0; y < truth.height; y += answers.scale) {
+        for (int x = 0; x < truth.width; x += answers.scale) {
+            if (truth.at(x, y).screen == ScreenKnowledge::kNoRay) continue;
+            iterations.push_back(answers.at(steps, x, y));
+            fetches.push_back(std::max(1.0, answers.at(reads, x, y)));
+        }
     }
-    const auto tracer = caseTracer(projection, scene);
-    if (!tracer) {
-        point.counters["Fetches"] = point.counters["FetchesOf32"] = 1; // a proxy reads the pixel's own depth
-        return;
-    }
-    const TracerScore score = scoreTracer(scene, *tracer);
-    point.counters["Fetches"] = score.fetches;
-    point.counters["FetchesOf32"] = score.groupFetches;
+    const double share = 1.0 / (answers.scale * answers.scale);
+    point.counters["Iterations"] = share * meanOf(iterations);
+    point.counters["IterationsOf32"] = share * meanOfGroupMaxima(iterations);
+    point.counters["Fetches"] = share * meanOf(fetches);
+    point.counters["FetchesOf32"] = share * meanOfGroupMaxima(fetches);
 }
 
 void fillScene(const YardstickScene& rays, BenchScene& scene)
@@ -242,6 +244,26 @@ void fillScene(const YardstickScene& rays, BenchScene& scene)
         unknowable += ray.truth != RayTruth::kAnswerable;
     scene.unknowable = scene.rays > 0 ? unknowable / scene.rays : 0;
     scene.oracleWrong = scoreTracer(rays, depthOracle().prepare(rays)).wrong;
+}
+
+void requireMeasurable(const Case& testCase, const BenchOptions& options, const std::vector<BenchMethod>& methods)
+{
+    for (const BenchMethod& own : options.own) {
+        if (testCase.effect == TraceEffect::kRefraction || !testCase.benchFamily.empty()) {
+            throw InputError(
+                fmt::format("--method {}: {} does not compare tracers; name a case of reflections without a "
+                            "family",
+                            own.name, testCase.name));
+        }
+        Case varied = testCase;
+        varied.backends.clear();
+        own.apply(varied);
+        if (const std::string why = whyNotOn(varied, options.backend); !why.empty())
+            throw InputError(fmt::format("--method {}: it cannot run on {}: {}", own.name, options.backend, why));
+        const auto sameName = [&](const BenchMethod& other) { return other.name == own.name; };
+        if (std::count_if(methods.begin(), methods.end(), sameName) > 1)
+            throw InputError(fmt::format("--method {}: the name is taken; names are unique", own.name));
+    }
 }
 
 } // namespace
@@ -261,20 +283,23 @@ BenchScene benchCase(const Case& testCase, const BenchOptions& options, WorkerPo
     scene.width = testCase.camera.width;
     scene.height = testCase.camera.height;
     Case plain = testCase;
-    setOutputs(plain);
+    setOutputs(plain, false);
     const CaseData data(plain);
     const Truth& truth = data.truth();
     std::vector<BenchMethod> methods = makeBenchMethods(testCase);
     methods.insert(methods.end(), options.own.begin(), options.own.end());
+    requireMeasurable(testCase, options, methods);
+    for (const BenchMethod& own : options.own) // what is wrong in a person's file is said at once
+        makeRunner(testCase, own, compiler, folders, precision, false);
     const BenchMethod baseline{"", "", [](Case& varied) {
                                    varied.projection.model = ProjectionModel::kNone;
                                    varied.material.refractionModel = RefractionModel::kNone;
                                    varied.hierarchy = 0;
                                    varied.history.reset();
                                }};
-    std::vector<Runner> runners{makeRunner(testCase, baseline, compiler, folders, precision)};
+    std::vector<Runner> runners{makeRunner(testCase, baseline, compiler, folders, precision, false)};
     for (const BenchMethod& method : methods)
-        runners.push_back(makeRunner(testCase, method, compiler, folders, precision));
+        runners.push_back(makeRunner(testCase, method, compiler, folders, precision, false));
     for (int round = -1; round < options.rounds; ++round) {
         for (Runner& runner : runners) {
             runOnce(runner, options.backend, pool, compiler, folders);
@@ -293,14 +318,17 @@ BenchScene benchCase(const Case& testCase, const BenchOptions& options, WorkerPo
     for (size_t i = 0; i < methods.size(); ++i) {
         const Runner& runner = runners[i + 1];
         BenchPoint point{methods[i].name, methods[i].kind, {}, {}, summarize(runner.milliseconds, scene.baselineMs)};
-        const Answers answers{readPlanes(runner.testCase, runner.last), runner.scale};
         if (family != nullptr) {
-            family->judge({data, runner.testCase, answers.planes, runner.job, methods[i]}, point);
+            const std::vector<Plane> planes = readPlanes(runner.testCase, runner.last);
+            family->judge({data, runner.testCase, planes, runner.job, methods[i]}, point);
         } else if (isReflection) {
+            Runner counted = makeRunner(testCase, methods[i], compiler, folders, precision, true);
+            runOnce(counted, options.backend, pool, compiler, folders);
+            const Answers answers{readPlanes(counted.testCase, counted.last), counted.scale};
             judgeReflections(truth, answers, point);
-            if (runner.scale == 1 && methods[i].tracer.empty()) countFetches(rays, runner.testCase.projection, point);
+            countCost(truth, answers, point);
         } else {
-            judgeRefractions(truth, answers, point);
+            judgeRefractions(truth, {readPlanes(runner.testCase, runner.last), runner.scale}, point);
             const size_t instructions = countSpirvInstructions(runner.job.programs.back().spirv);
             point.counters["Instructions"] = static_cast<double>(instructions);
         }

@@ -18,14 +18,15 @@ namespace crossray {
 // One way to answer a case's rays.
 struct BenchMethod {
     std::string name;
-    std::string kind; // "proxy", "linear", "hiz", "patches"; of refraction: "none", "thin", "box", "sphere"
+    std::string kind; // "proxy", "linear", "hiz", "patches", "own"; of refraction: "none", "thin", "box", "sphere"
     std::function<void(Case&)> apply;
-    int scale = 1;                  // 2: at half the width and height, each answer standing for four pixels
-    std::filesystem::path tracer{}; // a person's own, of kind "own"
-    int captureSize = 0;            // texels a side of a cubemap that it renders each frame; 0: none
+    int scale = 1;       // 2: at half the width and height, each answer standing for four pixels
+    int captureSize = 0; // texels a side of a cubemap that it renders each frame; 0: none
 };
 // Those that go with the case's effect: for reflections the projections, for refractions the models.
 std::vector<BenchMethod> makeBenchMethods(const Case& testCase);
+// A person's own tracer by "NAME=FILE". Throws InputError that says what is allowed.
+BenchMethod makeOwnMethod(const std::string& text);
 
 struct BenchTime { // milliseconds of the passes: by the device's clock where it is right, else around a finish
     double median = 0, fastest = 0, slowest = 0;
@@ -39,9 +40,9 @@ struct BenchPoint {
     // the answerable, 1 where there is no answer), HitPositionSS (median of the right hits, pixels). Refractions:
     // RayDirWS (mean, degrees), RayOriginWS and PathLength (mean, metres). Those of the other families: family.h.
     std::map<std::string, double> errors;
-    // Fetches and FetchesOf32 (of the depth buffer, its pyramid or a pixel's surface, a ray, and the mean over 32
-    // neighbouring rays of the largest), Iterations and IterationsOf32; of refractions Instructions (of the SPIR-V
-    // module). Exact: they do not depend on the device's speed.
+    // Fetches and FetchesOf32 (of the depth buffer, its pyramid or a pixel's surface, a pixel of the full image, and
+    // the mean over 32 neighbouring rays of the largest), Iterations and IterationsOf32, counted by the shader; of
+    // refractions Instructions (of the SPIR-V module). Exact: they do not depend on the device's speed.
     std::map<std::string, double> counters;
     BenchTime time;
 };
@@ -61,8 +62,8 @@ struct BenchScene {
 
 struct BenchOptions {
     std::string backend = "lavapipe";
-    int rounds = 9; // each runs every method once, A B C A B C; one more before them is not counted
-    std::vector<BenchMethod> own;
+    int rounds = 9;               // each runs every method once, A B C A B C; one more before them is not counted
+    std::vector<BenchMethod> own; // beside the library's
 };
 
 struct BenchResult {
@@ -71,7 +72,8 @@ struct BenchResult {
     std::vector<BenchScene> scenes;
 };
 
-// Throws EnvironmentError when the backend cannot be opened, ShaderError when a method's shader is refused.
+// Throws EnvironmentError when the backend cannot be opened, ShaderError when a method's shader is refused, InputError
+// when a method of the person's own cannot be measured there.
 BenchScene benchCase(const Case& testCase, const BenchOptions& options, WorkerPool& pool, ShaderCompiler& compiler,
                      const Folders& folders);
 

@@ -98,7 +98,39 @@ void addLinear(std::vector<BenchMethod>& methods, double thickness)
     }
 }
 
+void addPatches(std::vector<BenchMethod>& methods)
+{
+    const auto add = [&](const std::string& name, double caution, int scale) {
+        methods.push_back({name, "patches",
+                           [caution](Case& varied) {
+                               varied.projection.model = ProjectionModel::kPatches;
+                               varied.projection.patches = PatchSettings{.caution = caution};
+                           },
+                           scale});
+    };
+    for (const double caution : {0.25, 0.5, 1.0})
+        add(fmt::format("patches, caution {}", caution), caution, 1);
+    add("patches, caution 0.5, half size", 0.5, 2);
+}
+
 } // namespace
+
+BenchMethod makeOwnMethod(const std::string& text)
+{
+    const size_t sign = text.find('=');
+    if (sign == std::string::npos || sign == 0 || sign + 1 == text.size()) {
+        throw InputError(fmt::format("--method {}: allowed is NAME=FILE, as mine=path/to/tracer.glsl", text));
+    }
+    const std::filesystem::path file = std::filesystem::absolute(text.substr(sign + 1)).lexically_normal();
+    std::error_code failed;
+    if (!std::filesystem::is_regular_file(file, failed)) {
+        throw InputError({text.substr(sign + 1)}, fmt::format("--method {}: there is no such file", text));
+    }
+    return {text.substr(0, sign), "own", [file](Case& varied) {
+                varied.projection.model = ProjectionModel::kOwn;
+                varied.projection.own.tracer = file;
+            }};
+}
 
 std::vector<BenchMethod> makeBenchMethods(const Case& testCase)
 {
@@ -118,6 +150,7 @@ std::vector<BenchMethod> makeBenchMethods(const Case& testCase)
     addProxies(testCase, methods);
     addLinear(methods, testCase.projection.hiz.depthBias);
     addHiz(methods, testCase.projection.hiz.depthBias);
+    addPatches(methods);
     return methods;
 }
 

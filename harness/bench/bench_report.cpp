@@ -188,13 +188,16 @@ std::vector<Chart> makeBenchCharts(const BenchResult& result)
                     {}};
         Chart reads{"projection_reads_" + chartIdOf(scene.name),
                     "Projection: " + scene.name,
-                    "reads of the depth buffer or its pyramid, a ray",
+                    "reads of the depth buffer or its pyramid, a pixel",
                     "share of all rays that are answered wrongly",
                     {}};
         for (const BenchPoint& point : scene.points) {
-            wrong.points.push_back({point.method, point.time.ratio, point.errors.at("Wrong")});
-            if (point.counters.contains("Fetches"))
-                reads.points.push_back({point.method, point.counters.at("Fetches"), point.errors.at("Wrong")});
+            const bool isOwn = point.kind == "own";
+            wrong.points.push_back({point.method, point.time.ratio, point.errors.at("Wrong"), false, isOwn});
+            if (point.counters.contains("Fetches")) {
+                reads.points.push_back(
+                    {point.method, point.counters.at("Fetches"), point.errors.at("Wrong"), false, isOwn});
+            }
         }
         reads.points.push_back({"what the depth buffer shows", 1, scene.oracleWrong, true});
         charts.insert(charts.end(), {wrong, reads});

@@ -21,6 +21,7 @@ constexpr double kZeroBand = 26; // pixels below the axis, for errors of 0
 constexpr double kTextHeight = 13, kTextWidth = 6.1;
 constexpr const char* kFrontColor = "#1f5fa8";
 constexpr const char* kPaleColor = "#b9bec6";
+constexpr const char* kOwnColor = "#c2571a";
 constexpr std::array<const char*, 4> kSeriesColors{"#1f5fa8", "#c2571a", "#2f8f4e", "#7a4fa3"};
 
 std::string escape(const std::string& text)
@@ -111,13 +112,12 @@ struct Box {
 // Finds a free place for each label around its point, nearest first; draws a leader where it is not beside the point.
 class Labels {
   public:
-    void block(double x, double y, double radius)
+    void block(double x, double y, double radius) { block(x, y, x, y, radius); }
+    // A straight line along an axis.
+    void block(double x0, double y0, double x1, double y1, double radius)
     {
-        taken_.push_back({x - radius, y - radius, x + radius, y + radius});
-    }
-    void blockLine(double x0, double y0, double x1, double y1)
-    {
-        taken_.push_back({std::min(x0, x1) - 1, std::min(y0, y1) - 1, std::max(x0, x1) + 1, std::max(y0, y1) + 1});
+        taken_.push_back({std::min(x0, x1) - radius, std::min(y0, y1) - radius, std::max(x0, x1) + radius,
+                          std::max(y0, y1) + radius});
     }
     std::string add(double x, double y, const std::string& text, const char* color)
     {
@@ -212,44 +212,48 @@ std::vector<Placed> sortFront(std::vector<Placed> placed)
     return placed;
 }
 
-std::string drawFront(const std::vector<Placed>& all)
+std::string drawFront(const std::vector<Placed>& front)
 {
-    const std::vector<Placed> placed = sortFront(all);
-    if (placed.size() < 2) return "";
-    std::string path = fmt::format("M{:.1f} {:.1f}", placed[0].x, placed[0].y);
-    for (size_t i = 1; i < placed.size(); ++i) // what is reached at a cost stays reached until the next point
-        path += fmt::format("H{:.1f}V{:.1f}", placed[i].x, placed[i].y);
+    if (front.size() < 2) return "";
+    std::string path = fmt::format("M{:.1f} {:.1f}", front[0].x, front[0].y);
+    for (size_t i = 1; i < front.size(); ++i) // what is reached at a cost stays reached until the next point
+        path += fmt::format("H{:.1f}V{:.1f}", front[i].x, front[i].y);
     return fmt::format("<path d=\"{}\" stroke=\"{}\" stroke-width=\"1.4\" stroke-opacity=\"0.6\"/>\n", path,
                        kFrontColor);
 }
 
-std::string drawPoints(const std::vector<Placed>& placed)
+std::string drawPoint(const Placed& p)
+{
+    if (p.point->isBound) {
+        return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"5\" stroke=\"#2f8f4e\" stroke-width=\"1.6\"/>\n",
+                           p.x, p.y);
+    }
+    const char* const color = p.point->isOwn ? kOwnColor : p.isOnFront ? kFrontColor : kPaleColor;
+    return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4.5\" fill=\"{}\"/>\n", p.x, p.y, color);
+}
+
+std::string drawPoints(const std::vector<Placed>& placed, const std::vector<Placed>& front)
 {
     Labels labels;
     std::string svg;
     for (const Placed& p : placed)
         labels.block(p.x, p.y, 5);
-    const std::vector<Placed> steps = sortFront(placed);
-    for (size_t i = 1; i < steps.size(); ++i) {
-        labels.blockLine(steps[i - 1].x, steps[i - 1].y, steps[i].x, steps[i - 1].y);
-        labels.blockLine(steps[i].x, steps[i - 1].y, steps[i].x, steps[i].y);
+    for (size_t i = 1; i < front.size(); ++i) {
+        labels.block(front[i - 1].x, front[i - 1].y, front[i].x, front[i - 1].y, 1);
+        labels.block(front[i].x, front[i - 1].y, front[i].x, front[i].y, 1);
     }
-    for (const bool front : {true, false}) { // the front's names have the first choice of places
+    // A person's own names have the first choice of places, then those of the front; their dots lie on top.
+    const auto rank = [](const Placed& p) { return p.point->isOwn ? 0 : p.isOnFront ? 1 : 2; };
+    std::string names;
+    for (const int turn : {0, 1, 2}) {
         for (const Placed& p : placed) {
-            if (p.isOnFront != front) continue;
-            const char* const color = front ? kFrontColor : kPaleColor;
-            const char* const text = front ? "#20242a" : "#8a9099";
-            if (p.point->isBound) {
-                svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"5\" stroke=\"#2f8f4e\" "
-                                   "stroke-width=\"1.6\"/>\n",
-                                   p.x, p.y);
-            } else {
-                svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4.5\" fill=\"{}\"/>\n", p.x, p.y, color);
-            }
-            svg += labels.add(p.x, p.y, p.point->name, text);
+            if (rank(p) == 2 - turn) svg += drawPoint(p);
+            if (rank(p) != turn) continue;
+            const char* const text = p.point->isOwn ? kOwnColor : p.isOnFront ? "#20242a" : "#8a9099";
+            names += labels.add(p.x, p.y, p.point->name, text);
         }
     }
-    return svg;
+    return svg + names;
 }
 
 } // namespace
@@ -288,8 +292,9 @@ std::string formatChartSvg(const Chart& chart)
         const double height = point.error > 0 ? y.place(point.error) : y.begin + 0.5 * kZeroBand;
         placed.push_back({&point, x.place(point.cost), height, front[i]});
     }
-    return openSvg(chart.title, kWidth, kHeight) + drawAxes(chart, x, y, hasZeros) + drawFront(placed) +
-           drawPoints(placed) + "</svg>\n";
+    const std::vector<Placed> sorted = sortFront(placed);
+    return openSvg(chart.title, kWidth, kHeight) + drawAxes(chart, x, y, hasZeros) + drawFront(sorted) +
+           drawPoints(placed, sorted) + "</svg>\n";
 }
 
 std::string formatChartsCsv(std::span<const Chart> charts)

@@ -13,6 +13,7 @@ struct ChartPoint {
     double cost = 0;
     double error = 0;     // 0 gets a band of its own below the axis
     bool isBound = false; // no method, but a limit that none passes: drawn as a ring, no part of the front
+    bool isOwn = false;   // a person's own: in a colour of its own, wherever it lies
 };
 
 struct Chart {

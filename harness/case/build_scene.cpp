@@ -317,6 +317,21 @@ void buildMaterial(const TableReader& top, Case& testCase)
     }
 }
 
+// A tracer of the person's own, where the model asks for it and nowhere else.
+void buildOwnTracer(const TableReader& table, Case& testCase)
+{
+    const bool isOwn = testCase.projection.model == ProjectionModel::kOwn;
+    const Node* tracer = table.find("tracer");
+    if (isOwn && tracer == nullptr) {
+        throw InputError(table.position("model"), "\"tracer\" is missing in [projection]; own requires it");
+    }
+    if (!isOwn && tracer != nullptr) {
+        throw InputError(table.position("tracer"),
+                         "\"tracer\" is given without model = \"own\"; both together are allowed");
+    }
+    if (isOwn) testCase.projection.own.tracer = resolveInside(testCase, *tracer, "tracer", true);
+}
+
 void buildProjection(const TableReader& top, Case& testCase)
 {
     const TableReader table = top.table("projection");
@@ -328,9 +343,11 @@ void buildProjection(const TableReader& top, Case& testCase)
     projection.patches.depthError = table.number("depth_error");
     if (table.has("max_level")) projection.hiz.maxLevel = projection.patches.maxLevel = table.integer("max_level");
     if (table.has("max_iterations")) {
-        projection.hiz.maxIterations = projection.patches.maxIterations = table.integer("max_iterations");
+        projection.hiz.maxIterations = projection.patches.maxIterations = projection.own.maxIterations =
+            table.integer("max_iterations");
     }
-    const bool isHiz = projection.model != ProjectionModel::kPatches;
+    buildOwnTracer(table, testCase);
+    const bool isHiz = projection.model != ProjectionModel::kPatches && projection.model != ProjectionModel::kOwn;
     if (isHiz && projection.hiz.minLevel > projection.hiz.maxLevel) {
         throw InputError(table.position(table.has("min_level") ? "min_level" : "max_level"),
                          fmt::format("\"min_level\" is {}; at most \"max_level\", which is {}, is allowed",

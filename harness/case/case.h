@@ -29,7 +29,8 @@ enum class ProjectionModel {
     kHiz = 4,
     kLinear = 5,
     kPatches = 6,
-    kProxyProbe = 7
+    kProxyProbe = 7,
+    kOwn = 8 // a person's own tracer
 };
 // The text's linear ramp, Unity 2018's smoothed ramp, today's smoothed ramp of half the width (domain, section 2).
 enum class ScreenWeightForm { kLinear = 0, kSmooth2018 = 1, kSmoothToday = 2 };
@@ -85,12 +86,18 @@ struct PatchSettings {
     double depthError = 0.0; // affine depth by which the buffer may be wrong
 };
 
+struct OwnSettings {                // of a person's own tracer (docs/own-tracer.md)
+    std::filesystem::path tracer{}; // resolved
+    int maxIterations = 2048;       // handed on to it
+};
+
 struct Projection {
     ProjectionModel model = ProjectionModel::kNone; // none: only the ray is computed
     ProxyVolume proxy;
     HizSettings hiz;
     LinearSettings linear;
     PatchSettings patches;
+    OwnSettings own;
     double screenWeightDistance = 0.1; // NDC in [0,1]
     ScreenWeightForm screenWeightForm = ScreenWeightForm::kSmooth2018;
 };

@@ -62,7 +62,7 @@ std::shared_ptr<const Node> findPresets(const fs::path& folder)
     static std::map<fs::path, CachedPresets> cache;
 
     std::error_code error;
-    for (fs::path at = fs::absolute(folder, error); !at.empty(); at = at.parent_path()) {
+    for (fs::path at = fs::absolute(folder.empty() ? "." : folder, error); !at.empty(); at = at.parent_path()) {
         const fs::path file = at / "presets.toml";
         const fs::file_time_type time = fs::last_write_time(file, error);
         if (!error) {

@@ -74,11 +74,15 @@ std::vector<KeySpec> projectionKeys()
 {
     return {
         Key("projection", "model", kChoice)
-            .oneOf({"none", "proxy_infinite", "proxy_box", "proxy_sphere", "hiz", "linear", "patches", "proxy_probe"})
+            .oneOf({"none", "proxy_infinite", "proxy_box", "proxy_sphere", "hiz", "linear", "patches", "proxy_probe", "own"})
             .byDefault("\"none\"")
             .says("What the ray is projected on; none computes the ray alone, proxy_probe takes the proxy of the first "
                   "[[probe]] "
-                  "that counts at the pixel, else the infinite one."),
+                  "that counts at the pixel, else the infinite one; own is the tracer of your own in tracer."),
+        Key("projection", "tracer", kString)
+            .allowed("a GLSL file inside the case's folder")
+            .withoutIt("required by own")
+            .says("Own: the file that defines traceOwn (docs/own-tracer.md); not for cpu32 and cpu64."),
         Key("projection", "proxy", kTable)
             .withoutIt("required by proxy_box and proxy_sphere")
             .says("The proxy volume."),
@@ -96,13 +100,13 @@ std::vector<KeySpec> projectionKeys()
         Key("projection", "max_iterations", kInteger)
             .atLeast(1)
             .atMost(65535)
-            .withoutIt("32; patches: 512")
+            .withoutIt("32; patches: 512; own: 2048")
             .says("Steps after which the answer is unknown."),
         Key("projection", "depth_bias", kNumber)
             .atLeast(0)
             .atMost(1e6)
             .byDefault("1.0")
-            .says("HiZ: thickness of what the depth buffer shows, metres."),
+            .says("HiZ: thickness of what the depth buffer shows, metres; own: handed on."),
         Key("projection", "caution", kNumber)
             .atLeast(0)
             .atMost(1e6)

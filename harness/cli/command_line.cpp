@@ -299,6 +299,8 @@ void addTracers(CLI::App& bench, CommandLine& line)
     verb.add_option("--json", options.json, "The figures as JSON")->type_name("FILE");
     verb.add_option("--csv", options.csv, "The figures as CSV")->type_name("FILE");
     verb.add_option("--charts", options.charts, "Charts as SVG")->type_name("DIR");
+    verb.add_option("--method", options.methods, "Not here: crossray bench CASE --method NAME=FILE")
+        ->type_name("NAME=FILE");
     verb.callback([&line] { line.verb = [&line] { return benchTracers(line.global, line.tracers); }; });
 }
 
@@ -310,6 +312,10 @@ void addBench(CLI::App& app, CommandLine& line)
     bench.add_option("cases", options.cases, "Case files, folders, names, or globs over both")
         ->type_name("CASE|DIR|GLOB");
     bench.add_option("--backend", options.backend, "Where; default: lavapipe")->type_name("NAME");
+    bench.add_option("--method", options.methods, "A tracer of your own beside the library's; repeated: several")
+        ->type_name("NAME=FILE")
+        ->take_all()
+        ->allow_extra_args(false);
     bench.add_option("--rounds", options.rounds, "Each runs every method once; the median counts; default: 9")
         ->type_name("N")
         ->check(CLI::Range(1, 999));
@@ -326,7 +332,10 @@ void addBench(CLI::App& app, CommandLine& line)
     bench.callback([&line] {
         if (line.verb) return; // of a subcommand
         line.verb = [&line] {
-            if (line.bench.cases.empty()) throw InputError("bench: name a case (those of `bench` are made for it), or one of tracers and throughput");
+            if (line.bench.cases.empty() && !line.bench.methods.empty()) line.bench.cases = {"yardstick/random_room"};
+            if (line.bench.cases.empty())
+                throw InputError(
+                    "bench: name a case (those of `bench` are made for it), or one of tracers and throughput");
             return benchCases(line.global, line.bench);
         };
     });

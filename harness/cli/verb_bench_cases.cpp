@@ -63,6 +63,10 @@ int benchCases(const GlobalOptions& global, const BenchCasesOptions& options)
     if (selected.exitCode) return static_cast<int>(*selected.exitCode);
     if (!options.budget.empty()) parseBudget(options.budget); // before minutes are spent
 
+    std::vector<BenchMethod> own;
+    for (const std::string& method : options.methods)
+        own.push_back(makeOwnMethod(method));
+
     WorkerOptions workers;
     workers.mesaCacheFolder = folders.cache / "mesa";
     WorkerPool pool(workers);
@@ -70,6 +74,7 @@ int benchCases(const GlobalOptions& global, const BenchCasesOptions& options)
     BenchOptions bench;
     bench.backend = backends.names.front();
     bench.rounds = options.rounds;
+    bench.own = std::move(own);
     BenchResult result;
     result.command = joinCommand(global.commandLine);
     result.fingerprint = pool.fingerprint(bench.backend);

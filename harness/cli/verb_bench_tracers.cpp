@@ -77,6 +77,12 @@ std::vector<TracerMethod> makeMethods(double thickness, const std::string& filte
 
 int benchTracers(const GlobalOptions& global, const TracersVerbOptions& options)
 {
+    if (!options.methods.empty()) {
+        throw InputError(
+            fmt::format("bench tracers: its rows are compiled ahead; a tracer of your own runs on a device: "
+                        "crossray bench yardstick/random_room --method {}",
+                        options.methods.front()));
+    }
     TracerReportHead head;
     std::vector<MeasuredTracer> rows;
     if (options.testCase.empty()) {

@@ -1,7 +1,9 @@
 #include "harness/cli/picture.h"
 #include "harness/cli/verbs.h"
 #include "harness/cli/show_color.h"
+#include "harness/compile/source.h"
 #include "harness/expect/planar_diagnosis.h"
+#include "harness/run/case_flight.h"
 #include "harness/run/case_judge.h"
 #include "harness/run/environment.h"
 
@@ -152,6 +154,10 @@ void printProjection(const Projection& projection)
                    linear.maxIterations, linear.bisections, linear.depthBias);
         break;
     }
+    case ProjectionModel::kOwn:
+        fmt::print("projection own, {}, {} iterations, depth bias {:g} m", displayPath(projection.own.tracer),
+                   projection.own.maxIterations, projection.hiz.depthBias);
+        break;
     case ProjectionModel::kPatches:
         fmt::print("projection patches, levels to {}, {} iterations, caution {:g}", projection.patches.maxLevel,
                    projection.patches.maxIterations, projection.patches.caution);
@@ -201,11 +207,10 @@ void printBackends(const Case& testCase, const std::vector<std::string>& wanted)
         const bool isAskedFor = wanted.empty() ? info.byDefault
                                                : std::find(wanted.begin(), wanted.end(), info.name) != wanted.end() ||
                                                      std::find(wanted.begin(), wanted.end(), "all") != wanted.end();
-        const bool isNamed = testCase.backends.empty() || std::find(testCase.backends.begin(), testCase.backends.end(),
-                                                                    info.name) != testCase.backends.end();
+        const std::string whyNot = whyNotOn(testCase, info.name);
         std::string what = "runs";
         if (!isAskedFor) what = "not asked for";
-        if (!isNamed) what = "skipped: the case does not name this backend";
+        if (!whyNot.empty()) what = "skipped: " + whyNot;
         if (!info.found) what = "not there: " + info.missing;
         fmt::print("{:<10} {:<12} {}\n", label, info.name, what);
         label = "";

@@ -118,6 +118,7 @@ int benchThroughput(const GlobalOptions& global, const ThroughputVerbOptions& op
 struct BenchCasesOptions {
     std::vector<std::string> cases;
     std::string backend = "lavapipe";
+    std::vector<std::string> methods; // a person's own tracers, NAME=FILE
     int rounds = 9;
     std::string budget;  // empty: none
     std::string output;  // folder; empty: none
@@ -136,8 +137,9 @@ struct TracersVerbOptions {
     double thickness = 0; // metres; 0: by the size
     int stride = 4;
     int threads = 2;
-    std::string json, csv; // files; empty: none
-    std::string charts;    // folder; empty: none
+    std::string json, csv;            // files; empty: none
+    std::string charts;               // folder; empty: none
+    std::vector<std::string> methods; // a person's own: refused, and where they run is said
 };
 int benchTracers(const GlobalOptions& global, const TracersVerbOptions& options);
 

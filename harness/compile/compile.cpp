@@ -3,6 +3,7 @@
 #include "harness/base/bytes.h"
 #include "harness/base/error.h"
 #include "harness/compile/cache.h"
+#include "harness/compile/confine.h"
 #include "harness/compile/cross.h"
 #include "harness/compile/frontend.h"
 #include "harness/compile/optimize.h"
@@ -88,6 +89,7 @@ Hash128 hashRequest(const ShaderLocation& shader, const CompileOptions& options)
     addVersions(hasher);
     addOptions(hasher, options);
     hasher.addString("closure").addString(shader.path.string()).addString(fs::absolute(options.includeRoot).string());
+    if (!options.ownTracer.empty()) hasher.addString(fs::absolute(options.ownTracer).string());
     return hasher.finish();
 }
 
@@ -247,9 +249,13 @@ std::optional<CompiledShader> ShaderCompiler::Impl::findOnDisk(const Hash128& re
 CompiledShader ShaderCompiler::Impl::make(const ShaderLocation& location, const Hash128& request,
                                           const CompileOptions& options)
 {
-    const FrontendResult parsed = parseShader(location, options.includeRoot, options.debugInfo);
+    const bool isOwn = !options.ownTracer.empty();
+    const FrontendResult parsed =
+        parseShader(location, options.includeRoot, options.debugInfo || isOwn, options.ownTracer);
     CompiledShader shader;
-    const std::vector<uint32_t> named = specialize(parsed.spirv, options.specialization, options.optimize);
+    const std::vector<uint32_t> confined =
+        isOwn ? confineOwnTracer(parsed.spirv, displayPath(fs::absolute(options.ownTracer))) : parsed.spirv;
+    const std::vector<uint32_t> named = specialize(confined, options.specialization, options.optimize);
     shader.spirv = options.debugInfo ? named : stripDebugInfo(named);
     validate(shader.spirv);
     shader.localSize = findLocalSize(shader.spirv);

@@ -23,6 +23,9 @@ struct CompileOptions {
     std::map<std::string, double> specialization; // by the constant's name in the source; unknown names are an error
     bool optimize = true;
     bool debugInfo = false; // keep names and lines
+    // A person's file that stands in for the include of entry/own_trace.comp; confine.h has what it may do. Empty:
+    // none.
+    std::filesystem::path ownTracer{};
 };
 
 struct CompiledShader {

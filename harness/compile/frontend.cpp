@@ -1,6 +1,7 @@
 #include "harness/compile/frontend.h"
 
 #include "harness/base/error.h"
+#include "harness/compile/confine.h"
 #include "harness/compile/message.h"
 
 #include <fmt/format.h>
@@ -14,6 +15,7 @@
 #include <memory>
 #include <mutex>
 #include <pthread.h>
+#include <sstream>
 
 namespace crossray {
 
@@ -41,7 +43,10 @@ EShLanguage findStage(const fs::path& path)
 // Finds "crossray/core/maths.glsl" below the root, and nothing outside it.
 class RootedIncluder : public glslang::TShader::Includer {
   public:
-    RootedIncluder(SourceSet& sources, const fs::path& root) : sources_(sources), root_(root) {}
+    RootedIncluder(SourceSet& sources, const fs::path& root, const fs::path& ownTracer)
+        : sources_(sources), root_(root), ownTracer_(ownTracer)
+    {
+    }
 
     // Called for both forms of the directive, for "..." after includeLocal has declined.
     IncludeResult* includeSystem(const char* headerName, const char*, size_t depth) override
@@ -54,7 +59,9 @@ class RootedIncluder : public glslang::TShader::Includer {
         }
         if (depth > kMaxIncludeDepth) return fail(fmt::format("includes nest deeper than {}", kMaxIncludeDepth));
         try {
-            const SourceFile& file = sources_.open(relative.generic_string(), root_ / relative);
+            const bool isOwn = relative == kOwnTracerInclude && !ownTracer_.empty();
+            const SourceFile& file =
+                sources_.open(relative.generic_string(), isOwn ? fs::absolute(ownTracer_) : root_ / relative);
             bytes_ += file.text.size() + 1;
             if (bytes_ > kMaxClosureBytes) {
                 return fail(fmt::format("all inclusions together may have at most {} bytes", kMaxClosureBytes));
@@ -81,18 +88,53 @@ class RootedIncluder : public glslang::TShader::Includer {
 
     SourceSet& sources_;
     fs::path root_;
+    fs::path ownTracer_;
     size_t bytes_ = 0;
     bool failed_ = false;
     std::vector<std::unique_ptr<IncludeResult>> results_;
     std::vector<std::unique_ptr<std::string>> texts_;
 };
 
-FrontendResult parseHere(const ShaderLocation& location, const fs::path& includeRoot, bool lines)
+// Directives of that kind would make a line of the person's file pass for another file's.
+void refuseLineDirectives(const SourceFile& file)
+{
+    int number = 0;
+    std::istringstream lines(file.text);
+    for (std::string line; std::getline(lines, line);) {
+        ++number;
+        const size_t mark = line.find_first_not_of(" \t");
+        if (mark == std::string::npos || line[mark] != '#') continue;
+        const size_t word = line.find_first_not_of(" \t", mark + 1);
+        if (word == std::string::npos || line.compare(word, 4, "line") != 0) continue;
+        throw ShaderError(SourcePosition{displayPath(file.path), number, static_cast<int>(mark) + 1}.format() +
+                          ": error: #line is not allowed in a tracer");
+    }
+}
+
+// What is wrong with a program of which a person's tracer is a part: in their file, or else because of it.
+std::string explainOwnTracer(const std::string& log, const std::string& rewritten, const fs::path& ownTracer)
+{
+    const std::string file = displayPath(fs::absolute(ownTracer));
+    if (log.find("No function definition (body) found") != std::string::npos &&
+        log.find("traceOwn(") != std::string::npos) {
+        return fmt::format("{}: error: it does not define {}", file, kOwnTracerFunction);
+    }
+    if (rewritten.find(file) != std::string::npos) return rewritten;
+    return fmt::format("{}: error: the harness's own code does not compile with it: {}", file,
+                       rewritten.substr(0, rewritten.find('\n')));
+}
+
+FrontendResult parseHere(const ShaderLocation& location, const fs::path& includeRoot, bool lines,
+                         const fs::path& ownTracer)
 {
     const EShLanguage stage = findStage(location.path);
     FrontendResult result;
     const SourceFile& entry = result.sources.open(location.name, location.path);
-    RootedIncluder includer(result.sources, includeRoot);
+    RootedIncluder includer(result.sources, includeRoot, ownTracer);
+    const auto explain = [&](const std::string& log) {
+        const std::string rewritten = rewriteMessages(log, result.sources, entry);
+        return ownTracer.empty() ? rewritten : explainOwnTracer(log, rewritten, ownTracer);
+    };
     initializeGlslang();
 
     constexpr auto kMessages = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules | EShMsgEnhanced);
@@ -107,11 +149,12 @@ FrontendResult parseHere(const ShaderLocation& location, const fs::path& include
     shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_3);
     shader.setEnhancedMsgs();
     if (!shader.parse(GetDefaultResources(), 450, ECoreProfile, false, false, kMessages, includer)) {
-        throw ShaderError(rewriteMessages(shader.getInfoLog(), result.sources, entry));
+        throw ShaderError(explain(shader.getInfoLog()));
     }
+    if (const SourceFile* own = result.sources.find(kOwnTracerInclude)) refuseLineDirectives(*own);
     glslang::TProgram program;
     program.addShader(&shader);
-    if (!program.link(kMessages)) throw ShaderError(rewriteMessages(program.getInfoLog(), result.sources, entry));
+    if (!program.link(kMessages)) throw ShaderError(explain(program.getInfoLog()));
 
     glslang::SpvOptions options;
     options.generateDebugInfo = lines;
@@ -153,10 +196,11 @@ void runWithLargeStack(const std::function<void()>& work)
 
 } // namespace
 
-FrontendResult parseShader(const ShaderLocation& location, const fs::path& includeRoot, bool lines)
+FrontendResult parseShader(const ShaderLocation& location, const fs::path& includeRoot, bool lines,
+                           const fs::path& ownTracer)
 {
     FrontendResult result;
-    runWithLargeStack([&] { result = parseHere(location, includeRoot, lines); });
+    runWithLargeStack([&] { result = parseHere(location, includeRoot, lines, ownTracer); });
     return result;
 }
 

@@ -13,7 +13,9 @@ struct FrontendResult {
     SourceSet sources;           // the entry first
 };
 
-// Throws ShaderError (the source is wrong) or InputError (it is missing, too large, of an unknown kind).
-FrontendResult parseShader(const ShaderLocation& shader, const std::filesystem::path& includeRoot, bool lines);
+// `ownTracer` is the person's file behind the include kOwnTracerInclude; empty: there is none. Throws ShaderError (the
+// source is wrong) or InputError (it is missing, too large, of an unknown kind).
+FrontendResult parseShader(const ShaderLocation& shader, const std::filesystem::path& includeRoot, bool lines,
+                           const std::filesystem::path& ownTracer = {});
 
 } // namespace crossray

@@ -211,6 +211,16 @@ std::vector<uint32_t> allowContraction(const std::vector<uint32_t>& spirv)
     return result;
 }
 
+std::set<uint32_t> findBindings(const std::vector<uint32_t>& spirv)
+{
+    std::set<uint32_t> bindings;
+    forEachInstruction(spirv, [&](spv::Op op, std::span<const uint32_t> operands) {
+        const bool isBinding = op == spv::OpDecorate && operands.size() == 3 && operands[1] == spv::DecorationBinding;
+        if (isBinding) bindings.insert(operands[2]);
+    });
+    return bindings;
+}
+
 size_t countSpirvInstructions(const std::vector<uint32_t>& spirv)
 {
     size_t count = 0;

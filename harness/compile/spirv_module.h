@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -35,6 +36,8 @@ void setLocalSize(std::vector<uint32_t>& spirv, const std::array<uint32_t, 3>& s
 std::vector<uint32_t> forbidContraction(const std::vector<uint32_t>& spirv);
 // Takes all NoContraction decorations away again, those of the source's `precise` too.
 std::vector<uint32_t> allowContraction(const std::vector<uint32_t>& spirv);
+// Numbers of the bindings that the module declares; after optimisation, those that it uses.
+std::set<uint32_t> findBindings(const std::vector<uint32_t>& spirv);
 size_t countSpirvInstructions(const std::vector<uint32_t>& spirv);
 
 // The words of a constant of the given type. Throws InputError that says what is allowed when the value does not fit.

@@ -92,6 +92,9 @@ void storeAnswer(double* target, Output output, const PixelAnswer& answer)
     case Output::kIterationCount:
         target[0] = static_cast<double>(answer.iterations);
         return;
+    case Output::kFetchCount:
+        target[0] = static_cast<double>(answer.fetches);
+        return;
     case Output::kTransmittance:
         return storeVector(target, answer.transmittance);
     case Output::kColorMipLevel:

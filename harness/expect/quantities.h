@@ -34,6 +34,7 @@ enum class Output : int {
     kTransmittance = 23,
     kColorMipLevel = 24,
     kHistoryUV = 25,
+    kFetchCount = 26,
 };
 
 // All that a quantity may know of one pixel; each fills what it answers for.
@@ -46,6 +47,7 @@ struct PixelAnswer {
     glm::dvec2 positionNDC{0.0}; // x right, y up, [-1,1] on screen
     glm::dvec3 rayDirNDC{0.0};
     int iterations = 0;
+    int fetches = 0;
     double hitWeight = 0;
     glm::dvec3 radiance{0.0};
     HierarchyShare share;

@@ -105,7 +105,8 @@ PixelAnswer answerProbeProxy(const QuantityInput& input, size_t pixel)
 bool isMarch(const Case& testCase)
 {
     const ProjectionModel model = testCase.projection.model;
-    return model == ProjectionModel::kHiz || model == ProjectionModel::kLinear || model == ProjectionModel::kPatches;
+    return model == ProjectionModel::kHiz || model == ProjectionModel::kLinear || model == ProjectionModel::kPatches ||
+           model == ProjectionModel::kOwn;
 }
 
 // Where the case's projection should end: a proxy by its closed form; a march on the nearest surface that its ray meets
@@ -138,6 +139,23 @@ PixelAnswer answerLinear(const QuantityInput& input, size_t pixel)
     answer.iterations = march.iterations;
     answer.hitPositionSS = march.positionSS;
     answer.hitDepth = march.linearDepth;
+    return answer;
+}
+
+// A walk over every pixel between the ray's own and that of the true hit, on surfaces that face the camera: a round for
+// each of the two and those between, and a read for each but the first, which has one of its normal.
+PixelAnswer answerPixelWalk(const QuantityInput& input, size_t pixel)
+{
+    PixelAnswer answer;
+    const TruthPixel& truth = input.truth->pixels[pixel];
+    if (truth.screen != ScreenKnowledge::kVisible) return answer;
+    const auto width = static_cast<size_t>(input.testCase.camera.width);
+    const glm::dvec2 start(static_cast<double>(pixel % width), static_cast<double>(pixel / width));
+    const glm::dvec2 borders = glm::abs(glm::floor(truth.hitPositionSS) - start);
+    answer.iterations = static_cast<int>(borders.x + borders.y) + 1;
+    answer.fetches = answer.iterations;
+    answer.hitPositionSS = truth.hitPositionSS;
+    answer.hitDepth = truth.hitLinearDepth;
     return answer;
 }
 
@@ -269,6 +287,12 @@ std::string refuseOtherThanLinear(const Case& testCase, Output)
     return "the case does not march linearly; projection linear is needed";
 }
 
+std::string refuseOtherThanOwn(const Case& testCase, Output)
+{
+    if (testCase.projection.model == ProjectionModel::kOwn) return {};
+    return "the case's tracer is none of the person's own; projection own is needed";
+}
+
 std::string refuseOtherThanProbes(const Case& testCase, Output)
 {
     if (testCase.projection.model == ProjectionModel::kProxyProbe) return {};
@@ -329,6 +353,11 @@ const std::vector<Quantity>& analyticQuantities()
         makeQuantity("linear_march",
                      "First sample of the linear march beyond the true hit, on surfaces that face the camera.",
                      {kHitPositionSS, kHitDepth, kIterationCount}, always, refuseOtherThanLinear, answerLinear),
+        makeQuantity(
+            "pixel_walk",
+            "The true hit, reached pixel by pixel: a round and a read for each pixel from the ray's own on, on "
+            "surfaces that face the camera.",
+            {kHitPositionSS, kHitDepth, kIterationCount, kFetchCount}, always, refuseOtherThanOwn, answerPixelWalk),
         makeQuantity(
             "surface_radiance",
             "Radiance of what the case's ray meets in the scene, the sky included; Color: times its screen weight and "

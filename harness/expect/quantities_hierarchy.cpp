@@ -55,8 +55,8 @@ std::string refuseWhereItHasNoTiers(const Case& testCase, Output)
     if (testCase.probeProfile != ProbeProfile::kHdrp)
         return "it is of the profile hdrp; probe_profile is of the others";
     const ProjectionModel model = testCase.projection.model;
-    const bool isMarch =
-        model == ProjectionModel::kHiz || model == ProjectionModel::kLinear || model == ProjectionModel::kPatches;
+    const bool isMarch = model == ProjectionModel::kHiz || model == ProjectionModel::kLinear ||
+                         model == ProjectionModel::kPatches || model == ProjectionModel::kOwn;
     if (isMarch && (testCase.hierarchy & kTierScreen))
         return "a march has no closed form; a proxy is needed for the screen's tier, or none";
     for (const Probe& probe : testCase.probes)

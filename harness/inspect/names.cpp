@@ -38,7 +38,7 @@ std::string nameOfReason(int reason)
 std::string nameOfTracingModel(int model)
 {
     static constexpr std::string_view kNames[] = {
-        "none", "proxy, infinite", "proxy, box", "proxy, sphere", "HiZ", "linear", "patches", "proxy of a probe",
+        "none", "proxy, infinite", "proxy, box", "proxy, sphere", "HiZ", "linear", "patches", "proxy of a probe", "own",
     };
     return nameIn(kNames, model);
 }

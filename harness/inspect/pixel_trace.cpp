@@ -1,6 +1,7 @@
 #include "harness/inspect/pixel_trace.h"
 
 #include "harness/inspect/names.h"
+#include "harness/run/case_flight.h"
 #include "harness/run/execute.h"
 #include "harness/run/steps.h"
 #include "harness/run/worker_explain.h"
@@ -103,6 +104,11 @@ RecordDistance measureDistance(const PixelRecord& first, const PixelRecord& seco
 PixelTrace tracePixel(const Case& testCase, glm::ivec2 pixel, std::span<const std::string> backends,
                       const Folders& folders)
 {
+    for (const std::string& backend : backends) {
+        const bool isOwn = testCase.projection.model == ProjectionModel::kOwn;
+        if (const std::string why = whyNotOn(testCase, backend); isOwn && !why.empty())
+            throw InputError(fmt::format("{}: {} is not traced there: {}", backend, testCase.name, why));
+    }
     const CaseData data(prepareForRecord(testCase));
     WorkerOptions options;
     options.mesaCacheFolder = folders.cache / "mesa";

@@ -1,5 +1,8 @@
 #include "harness/pass/pass.h"
 
+#include "harness/compile/confine.h"
+#include "harness/compile/source.h"
+#include "harness/compile/spirv_module.h"
 #include "harness/pass/bindings.h"
 #include "harness/pass/pass_params.h"
 #include "harness/pass/pixel_record.h"
@@ -51,9 +54,10 @@ uint32_t groupsFor(int size)
 }
 
 ProgramSource compileEntry(ShaderCompiler& compiler, const std::filesystem::path& shaderRoot, const std::string& entry,
-                           std::map<std::string, double> specialization)
+                           std::map<std::string, double> specialization, const std::filesystem::path& ownTracer = {})
 {
     CompileOptions options;
+    options.ownTracer = ownTracer;
     options.includeRoot = shaderRoot;
     options.specialization = std::move(specialization);
     CompiledShader compiled = compiler.compile(shaderRoot / entry, options);
@@ -121,9 +125,22 @@ class JobBuilder {
         }
     }
 
+    // The program of the trace, which addTrace() adds. Returns whether it reads the depth pyramid: a person's own
+    // tracer that does not has none built.
+    bool compileTrace(ShaderCompiler& compiler, const std::filesystem::path& shaderRoot, bool isRecord)
+    {
+        const Case& testCase = data_.testCase();
+        std::map<std::string, double> variant = makeTraceVariant(testCase);
+        if (isRecord) variant["kRecordPixel"] = 1;
+        trace_.isOwn = testCase.projection.model == ProjectionModel::kOwn;
+        const char* const entry = trace_.isOwn ? "entry/own_trace.comp" : "entry/screen_trace.comp";
+        trace_.program = compileEntry(compiler, shaderRoot, entry, std::move(variant), testCase.projection.own.tracer);
+        return testCase.projection.model == ProjectionModel::kHiz ||
+               (trace_.isOwn && findBindings(trace_.program.spirv).contains(kPyramidBinding));
+    }
+
     // With a query the trace records that pixel, and writes no plane.
-    void addTrace(ShaderCompiler& compiler, const std::filesystem::path& shaderRoot, const Binding& depth,
-                  const Binding& normal, const std::optional<PixelQuery>& query)
+    void addTrace(const Binding& depth, const Binding& normal, const std::optional<PixelQuery>& query)
     {
         const Case& testCase = data_.testCase();
         std::vector<Binding> bindings = traceBindings_;
@@ -150,9 +167,11 @@ class JobBuilder {
         bindings.push_back(query ? addBuffer(kRecordBinding, storageBuffer(countRecordScalars(query->stepCapacity)))
                                  : addBuffer(kOutputBinding, storageBuffer(planeScalars * testCase.outputs.size())));
         job_.readbacks.push_back(bindings.back().index);
-        std::map<std::string, double> variant = makeTraceVariant(testCase);
-        if (query) variant["kRecordPixel"] = 1;
-        job_.programs.push_back(compileEntry(compiler, shaderRoot, "entry/screen_trace.comp", std::move(variant)));
+        if (trace_.isOwn) {
+            bindings.push_back(addBuffer(kOwnStatusBinding, storageBuffer(4)));
+            if (!query) job_.readbacks.push_back(bindings.back().index);
+        }
+        job_.programs.push_back(std::move(trace_.program));
         job_.dispatches.push_back({job_.programs.size() - 1, std::move(bindings), query ? 1 : groupsFor(camera().width),
                                    query ? 1 : groupsFor(camera().height), 1});
     }
@@ -193,6 +212,10 @@ class JobBuilder {
     Precision precision_;
     std::vector<PyramidLevel> levels_;
     std::optional<Binding> pyramid_;
+    struct {
+        ProgramSource program;
+        bool isOwn = false;
+    } trace_;
     std::vector<Binding> traceBindings_; // what the trace reads beside the images of every case
     Job job_;
 };
@@ -211,7 +234,7 @@ Job buildTraceJob(const CaseData& data, ShaderCompiler& compiler, const std::fil
         return isSame ? own : builder.addImage(binding, imageFromPlane(data.screen().plane(channel)));
     };
     const ProjectionModel model = data.testCase().projection.model;
-    if (model == ProjectionModel::kHiz) {
+    if (builder.compileTrace(compiler, shaderRoot, query.has_value())) {
         builder.addDepthPyramid(compiler, shaderRoot, imageOf(kDepthBinding, GBufferChannel::kDeviceDepth, depth));
     }
     if (model == ProjectionModel::kPatches) {
@@ -220,7 +243,7 @@ Job buildTraceJob(const CaseData& data, ShaderCompiler& compiler, const std::fil
                                   imageOf(kNormalBinding, GBufferChannel::kNormalWS, normal));
     }
     if (data.testCase().history) builder.addHistory(compiler, shaderRoot);
-    builder.addTrace(compiler, shaderRoot, depth, normal, query);
+    builder.addTrace(depth, normal, query);
     return builder.take();
 }
 
@@ -243,10 +266,26 @@ Job buildRecordJob(const CaseData& data, ShaderCompiler& compiler, const std::fi
     return buildTraceJob(data, compiler, shaderRoot, precision, PixelQuery{pixel.x, pixel.y, stepCapacity});
 }
 
+namespace {
+
+// A tracer's loop that did not end, as shaders/pass/own_tracer.glsl leaves word of it.
+void refuseEndlessLoop(const Case& testCase, const std::vector<double>& status)
+{
+    if (status.size() != 4 || status[3] < 0.5) return;
+    const SourcePosition place{displayPath(testCase.projection.own.tracer), static_cast<int>(status[0])};
+    throw ShaderError(fmt::format("{}: error: the loop goes on and on: cut after {} rounds, at pixel {:.0f},{:.0f}",
+                                  place.format(), kMostOwnRounds, status[1], status[2]));
+}
+
+} // namespace
+
 std::vector<Plane> readPlanes(const Case& testCase, const JobResult& result)
 {
     const size_t pixels = static_cast<size_t>(testCase.camera.width) * static_cast<size_t>(testCase.camera.height);
-    if (result.readbacks.size() != 1 || result.readbacks[0].size() != pixels * 4 * testCase.outputs.size()) {
+    const bool isOwn = testCase.projection.model == ProjectionModel::kOwn;
+    if (isOwn && result.readbacks.size() == 2) refuseEndlessLoop(testCase, result.readbacks[1]);
+    if (result.readbacks.size() != (isOwn ? 2 : 1) ||
+        result.readbacks[0].size() != pixels * 4 * testCase.outputs.size()) {
         throw EnvironmentError(fmt::format("{}: the device returned {} values, expected {}", testCase.name,
                                            result.readbacks.empty() ? 0 : result.readbacks[0].size(),
                                            pixels * 4 * testCase.outputs.size()));

@@ -91,6 +91,11 @@ Params fillPassParams(const Case& testCase, const std::vector<PyramidLevel>& lev
         params.hizLimits.z = projection.linear.maxIterations;
         params.tracing.x = static_cast<decltype(params.tracing.x)>(projection.linear.depthBias);
     }
+    if (projection.model == ProjectionModel::kOwn) {
+        params.hizLimits.x = 0;
+        params.hizLimits.y = static_cast<int>(levels.size()) - 1;
+        params.hizLimits.z = projection.own.maxIterations;
+    }
     params.patches = Vec4(glm::dvec4(projection.patches.caution, projection.patches.depthError, 0.0, 0.0));
     params.record = glm::ivec4(query.x, query.y, query.stepCapacity, 0);
     for (size_t level = 0; level < levels.size(); ++level) {

@@ -28,10 +28,20 @@ size_t countBytes(const std::vector<Plane>& planes)
 
 } // namespace
 
+std::string whyNotOn(const Case& testCase, const std::string& backend)
+{
+    const std::vector<std::string>& named = testCase.backends;
+    if (!named.empty() && std::find(named.begin(), named.end(), backend) == named.end())
+        return "the case does not name this backend";
+    const bool isCompiledAhead = backend == "cpu32" || backend == "cpu64";
+    if (testCase.projection.model == ProjectionModel::kOwn && isCompiledAhead)
+        return "an own tracer is GLSL, and this backend's code is compiled ahead";
+    return {};
+}
+
 bool runsOn(const Case& testCase, const std::string& backend)
 {
-    return testCase.backends.empty() ||
-           std::find(testCase.backends.begin(), testCase.backends.end(), backend) != testCase.backends.end();
+    return whyNotOn(testCase, backend).empty();
 }
 
 CaseFlight::CaseFlight(const Case& testCase, PreparedCase prepared, const ExecuteOptions& options)

@@ -59,5 +59,7 @@ class CaseFlight {
 
 // Whether the case runs on the backend at all.
 bool runsOn(const Case& testCase, const std::string& backend);
+// Why it does not; empty where it does.
+std::string whyNotOn(const Case& testCase, const std::string& backend);
 
 } // namespace crossray

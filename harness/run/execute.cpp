@@ -234,6 +234,8 @@ class Execution {
             } catch (const InputError& failure) {
                 brokenInput = failure.what();
                 answer = {makeErrorResult(backend, brokenInput), {}, {}};
+            } catch (const ShaderError& failure) { // found while it ran
+                answer = {makeErrorResult(backend, failure.what()), {}, {}};
             }
         }
 
@@ -340,7 +342,7 @@ class Execution {
             if (runsOn(cases_[caseIndex], backend)) continue;
             BackendResult result;
             result.backend = backend;
-            result.reason = "the case does not name this backend";
+            result.reason = whyNotOn(cases_[caseIndex], backend);
             recordVerdict(caseIndex, std::move(result));
         }
     }

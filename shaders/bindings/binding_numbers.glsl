@@ -18,6 +18,7 @@ const int kPlanarAtlasBinding = 11;
 const int kRecordBinding = 12;
 const int kSurfaceBinding = 13;
 const int kColorPyramidBinding = 14;
+const int kOwnStatusBinding = 15;
 const int kProbeParamsBinding = 16;
 const int kPlanarParamsBinding = 17;
 

@@ -25,6 +25,17 @@ layout(binding = kPlanarAtlasBinding) uniform sampler2D planarAtlasImage; // rgb
 layout(binding = kProbeAtlasBinding) uniform sampler2D probeAtlasImage; // rgb: linear radiance; pass/probe_tier.glsl
 layout(std430, binding = kColorPyramidBinding) readonly buffer ColorPyramidBlock { vec4 colorCells[]; }; // colour, coverage
 
+int fetchCount = 0; // reads by the tracer; counted where the output is asked for
+
+#ifdef CROSSRAY_OWN_TRACER
+layout(std430, binding = kOwnStatusBinding) buffer OwnStatusBlock { vec4 ownStatus; }; // line of an endless loop, pixel, 1
+int ownRounds = 0;        // of the tracer's loops; harness/compile/confine.h adds what counts them, ...
+int ownEndlessLine = 0;   // ... and the line of the first loop that it had to cut
+int ownCoarsestLevel = 0; // that the tracer read
+vec4 loadOwnStatus() { return ownStatus; }
+void storeOwnStatus(vec4 status) { ownStatus = status; }
+#endif
+
 float fetchDeviceDepth(ivec2 pixel) { return texelFetch(deviceDepthImage, pixel, 0).r; }
 vec3 fetchNormalWS(ivec2 pixel) { return texelFetch(normalImage, pixel, 0).rgb; }
 vec3 fetchColor(ivec2 pixel) { return texelFetch(colorImage, pixel, 0).rgb; }

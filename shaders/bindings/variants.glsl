@@ -6,7 +6,7 @@
 
 CROSSRAY_VARIANT(0, kEffect, 0)           // 0 reflection, 1 refraction
 CROSSRAY_VARIANT(1, kRefractionModel, 0)  // 0 none, 1 sphere, 2 box, 3 thin
-CROSSRAY_VARIANT(2, kProjectionModel, 0)  // 0 none, 1 infinite, 2 box, 3 sphere, 4 HiZ, 5 linear, 6 patches, 7 proxy of a probe
+CROSSRAY_VARIANT(2, kProjectionModel, 0)  // 0 none, 1 infinite, 2 box, 3 sphere, 4 HiZ, 5 linear, 6 patches, 7 proxy of a probe, 8 own
 CROSSRAY_VARIANT(3, kOutputMask, 2097151) // bit i: output i is stored; crossray/shared/outputs.glsl
 CROSSRAY_VARIANT(4, kOrthographic, 0)     // 1: View.orthographic
 CROSSRAY_VARIANT(5, kReversedDepth, 1)    // 1: View.reversedDepth

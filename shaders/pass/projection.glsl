@@ -1,5 +1,6 @@
 // What a pixel's ray meets: a proxy's surface or, in screen space, a surface that the depth buffer shows. kProjectionModel has the
-// tracing models of crossray/shared/outputs.glsl. Hooks: fetchDeviceDepth, loadPyramidCell, loadSurfaceCell, and the block params.
+// tracing models of crossray/shared/outputs.glsl. Hooks: fetchDeviceDepth, loadPyramidCell, loadSurfaceCell, the invocation's own
+// int fetchCount, and the block params.
 #ifndef PASS_PROJECTION_GLSL
 #define PASS_PROJECTION_GLSL
 
@@ -10,14 +11,22 @@
 #include "crossray/project/proxy.glsl"
 #include "crossray/refract/refraction.glsl"
 #include "crossray/shared/outputs.glsl"
+#include "pass/output_slots.glsl"
 #include "pass/pixel_record.glsl"
 #include "pass/view_of_params.glsl"
+
+// Called by each hook that a tracer reads by.
+void countFetch()
+{
+    if (wantsOutput(kOutputFetchCount)) fetchCount = fetchCount + 1;
+}
 
 // The library's hooks for the pyramid, over one buffer of cells.
 int depthPyramidLevelCount() { return params.hizLimits.w; }
 ivec2 depthPyramidSize(int level) { return ivec2(params.pyramidLevels[level].y, params.pyramidLevels[level].z); }
 vec2 fetchDepthPyramid(ivec2 cell, int level)
 {
+    countFetch();
     ivec4 layoutOfLevel = params.pyramidLevels[level];
     return loadPyramidCell(layoutOfLevel.x + cell.y * layoutOfLevel.y + cell.x);
 }
@@ -25,6 +34,7 @@ vec2 fetchDepthPyramid(ivec2 cell, int level)
 // The depth of a pixel, for the linear march.
 float fetchLinearDepth(ivec2 pixel)
 {
+    countFetch();
     View view = loadView();
     float deviceDepth = fetchDeviceDepth(pixel);
     return choose(isClearedDepth(view, deviceDepth), kNoSurfaceDepth, linearDepthFromDevice(view, deviceDepth));
@@ -35,6 +45,7 @@ int surfacePyramidLevelCount() { return params.hizLimits.w; }
 ivec2 surfacePyramidSize(int level) { return depthPyramidSize(level); }
 vec4 fetchSurfaceCell(ivec2 cell, int level)
 {
+    countFetch();
     ivec4 layoutOfLevel = params.pyramidLevels[level];
     return loadSurfaceCell(layoutOfLevel.x + cell.y * layoutOfLevel.y + cell.x);
 }
@@ -112,6 +123,10 @@ PixelAnswer answerByPatches(View view, RefractionExit ray)
                        result.maxUsedLevel, result.intersectionKind, result.confidence);
 }
 
+#ifdef CROSSRAY_OWN_TRACER
+#include "pass/own_tracer.glsl"
+#endif
+
 // What the ray of a pixel meets, by the variant's model. `positionSS` is the pixel's own, where a ray that is not cast ends.
 PixelAnswer projectRay(View view, RefractionExit ray, vec2 positionSS)
 {
@@ -122,6 +137,9 @@ PixelAnswer projectRay(View view, RefractionExit ray, vec2 positionSS)
     if (kProjectionModel == kTracingModelHiz) return answerByHiz(view, ray);
     if (kProjectionModel == kTracingModelLinear) return answerByLinear(view, ray);
     if (kProjectionModel == kTracingModelPatches) return answerByPatches(view, ray);
+#ifdef CROSSRAY_OWN_TRACER
+    if (kProjectionModel == kTracingModelOwn) return answerByOwn(view, ray, positionSS);
+#endif
     if (kProjectionModel != kTracingModelNone) return answerByProxy(view, ray);
     // Only the ray is asked for: nothing is cast, so nothing is hit or missed.
     return PixelAnswer(kHitClassNoRaycast, kHitReasonNone, ray.positionWS, ray.dirWS, ray.pathLength, positionSS,

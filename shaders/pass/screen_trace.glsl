@@ -1,7 +1,7 @@
 // One pixel of the pass screen_trace: the reflected or refracted ray, its projection by one of the models, the screen weight, and
 // the debug modes. The variant constants select the code; what a variant does not use is not in it.
 // Hooks: fetchDeviceDepth, fetchNormalWS, fetchColor, fetchTraced, fetchThickness, fetchMotionUV, fetchProbeAtlas, loadPyramidCell,
-// loadSurfaceCell, loadColorCell, storeOutputValue, storeRecordValue, and the blocks params and probeParams;
+// loadSurfaceCell, loadColorCell, storeOutputValue, storeRecordValue, the blocks params and probeParams, and fetchCount;
 // bindings/screen_trace.glsl.
 #ifndef PASS_SCREEN_TRACE_GLSL
 #define PASS_SCREEN_TRACE_GLSL

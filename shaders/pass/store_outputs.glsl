@@ -67,6 +67,7 @@ void storeAnswer(View view, ivec2 pixel, PixelAnswer answer, ScreenColor screen,
     if (wantsOutput(kOutputColorMipLevel)) {
         storeOutput(kOutputColorMipLevel, pixel, vec4(screen.mipLevel, 0.0, 0.0, 0.0));
     }
+    if (wantsOutput(kOutputFetchCount)) storeOutput(kOutputFetchCount, pixel, vec4(float(fetchCount), 0.0, 0.0, 0.0));
     if (wantsOutput(kOutputHistoryUV)) storeOutput(kOutputHistoryUV, pixel, vec4(screen.historyUV, 0.0, 0.0));
 }
 

@@ -125,6 +125,7 @@ TEST(ShaderOutputs, AgreeWithTheHarness)
         {kOutputTransmittance, "Transmittance"},
         {kOutputColorMipLevel, "ColorMipLevel"},
         {kOutputHistoryUV, "HistoryUV"},
+        {kOutputFetchCount, "FetchCount"},
     };
     EXPECT_EQ(static_cast<size_t>(kOutputCount), ids.size());
     ASSERT_EQ(crossray::allOutputs().size(), ids.size());

@@ -19,6 +19,7 @@ thread_local PyramidParams pyramidParams;
 thread_local ProbeParams probeParams;
 thread_local SurfaceParams surfaceParams;
 thread_local PlanarParams planarParams;
+thread_local int fetchCount = 0;
 
 #define CROSSRAY_VARIANT(id, name, value) thread_local int name = value;
 #include "bindings/variants.glsl"
@@ -151,7 +152,10 @@ constexpr CpuKernel<Real> kKernels[] = {
          readUniform(probeParams, kProbeParamsBinding);
          readUniform(planarParams, kPlanarParamsBinding);
      },
-     [](int x, int y) { traceScreenPixel(ivec2(x, y)); }},
+     [](int x, int y) {
+         fetchCount = 0; // a variable of the invocation
+         traceScreenPixel(ivec2(x, y));
+     }},
 };
 
 #include "harness/backend/cpu/glsl_end.h"

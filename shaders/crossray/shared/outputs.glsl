@@ -30,7 +30,8 @@ const int kOutputPlanarStatus = 22;
 const int kOutputTransmittance = 23;
 const int kOutputColorMipLevel = 24;
 const int kOutputHistoryUV = 25;
-const int kOutputCount = 26;
+const int kOutputFetchCount = 26;
+const int kOutputCount = 27;
 
 // Hit classes: the values of HitSuccess.
 const int kHitClassNoRaycast = 0;
@@ -61,6 +62,7 @@ const int kTracingModelHiz = 4;
 const int kTracingModelLinear = 5;
 const int kTracingModelPatches = 6;
 const int kTracingModelProxyProbe = 7; // asked for; a pixel's model is that of the proxy which it found
+const int kTracingModelOwn = 8;        // a person's own tracer
 
 // Intersection kinds: the values of IntersectionKind.
 const int kIntersectionNone = 0;  // the ray crossed the cell without meeting anything

@@ -83,6 +83,8 @@ TEST_F(Translations, EachPassBecomesEsslHlslAndMsl)
     options.includeRoot = kShaders;
     options.debugInfo = true;
     for (const fs::path& entry : entries) {
+        options.ownTracer =
+            entry.stem() == "own_trace" ? kShaders.parent_path() / "cases/own/pixel_walk.glsl" : fs::path();
         const CompiledShader shader = compiler.compile(entry, options);
         const std::string essl = compiler.translate(shader.spirv, CompileTarget::kEssl);
         EXPECT_TRUE(essl.starts_with("#version 310 es")) << entry;

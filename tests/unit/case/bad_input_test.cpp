@@ -129,7 +129,7 @@ TEST_F(BadInput, aNameOfNoChoiceIsAnsweredWithTheChoices)
     EXPECT_EQ(refusal(withScene("[projection]\nmodel = \"hzi\"\n")),
               "a.toml:11:9: \"hzi\" is no name for \"model\"; did you mean \"hiz\"? Allowed: none, proxy_infinite, "
               "proxy_box, "
-              "proxy_sphere, hiz, linear, patches, proxy_probe");
+              "proxy_sphere, hiz, linear, patches, proxy_probe, own");
     EXPECT_OPENS(refusal(expecting("output = \"HitDepht\"\n")),
                  "a.toml:6:10: \"HitDepht\" is no name for \"output\"; did you mean \"HitDepth\"?");
     EXPECT_EQ(refusal(complete("", "scene = {}\nbackends = [\"lavapip\"]")),

@@ -277,11 +277,13 @@ TEST(Expected, everyFormAnswersForEachOfItsOutputs)
     Probe probe;
     probe.influence.halfExtents = glm::dvec3(20.0);
     testCase.probes.push_back(probe);
+    History still;
+    still.camera = testCase.camera;
     for (const ClosedForm& form : closedForms()) {
         testCase.projection.model = form.name == "screen_weight" ? ProjectionModel::kHiz : ProjectionModel::kNone;
-        testCase.history.reset();
-        if (form.name == "history") testCase.history.emplace().camera = testCase.camera;
+        testCase.history = form.name == "history" ? std::optional<History>(still) : std::nullopt;
         if (form.name == "linear_march") testCase.projection.model = ProjectionModel::kLinear;
+        if (form.name == "pixel_walk") testCase.projection.model = ProjectionModel::kOwn;
         if (form.name == "proxy_probe") testCase.projection.model = ProjectionModel::kProxyProbe;
         testCase.hierarchy = form.name == "hierarchy" ? unsigned{kTierSky} : 0;
         testCase.probeProfile = form.name == "probe_profile" ? ProbeProfile::kBuiltIn : ProbeProfile::kHdrp;

@@ -24,12 +24,14 @@ struct Cost {
     std::map<uint32_t, int> fetches; // by binding
     int loops = 0;
     std::set<uint32_t> bindings;
+    int variables = 0; // of the invocation, outside its functions
 };
 
 // Opcodes and decorations by the SPIR-V specification, version 1.3.
 Cost measure(const std::vector<uint32_t>& spirv)
 {
-    constexpr uint32_t kOpLoad = 61, kOpDecorate = 71, kOpImageFetch = 95, kOpImage = 100, kOpLoopMerge = 246;
+    constexpr uint32_t kOpVariable = 59, kPrivate = 6, kOpLoad = 61, kOpDecorate = 71, kOpImageFetch = 95,
+                       kOpImage = 100, kOpLoopMerge = 246;
     constexpr uint32_t kBinding = 33;
     Cost cost;
     std::map<uint32_t, uint32_t> bindingOf; // of a variable, and of what is loaded from it
@@ -43,6 +45,7 @@ Cost measure(const std::vector<uint32_t>& spirv)
         if (passesOn && bindingOf.contains(operands[2])) bindingOf[operands[1]] = bindingOf[operands[2]];
         if (opcode == kOpImageFetch) ++cost.fetches[bindingOf.at(operands[2])];
         if (opcode == kOpLoopMerge) ++cost.loops;
+        if (opcode == kOpVariable && operands[2] == kPrivate) ++cost.variables;
     });
     return cost;
 }
@@ -138,4 +141,19 @@ TEST(Cost, aRealtimeCaptureCastsARayATexelAndABakedOneNone)
     };
     EXPECT_EQ(capturedTexels(16), 6u * 16u * 16u);
     EXPECT_EQ(capturedTexels(256) / capturedTexels(16), 256u); // sixteen times the side
+}
+
+// A person's own tracer has the variables and the buffer that watch over it; nobody else has.
+TEST(Cost, aTracerOfOnesOwnCostsTheOthersNothing)
+{
+    const Cost own = costOfTrace("own/pixel_walk");
+    EXPECT_TRUE(own.bindings.contains(kOwnStatusBinding));
+    EXPECT_FALSE(own.bindings.contains(kPyramidBinding)); // it does not ask for it
+    EXPECT_TRUE(costOfTrace("own/interface").bindings.contains(kPyramidBinding));
+    for (const char* name : {"reflection/ray_plane", "reflection/proxy_infinite", "reflection/hiz_sky",
+                             "reflection/linear_mirror_floor", "reflection/patches_sky", "probe/backends_agree"}) {
+        const Cost cost = costOfTrace(name);
+        EXPECT_FALSE(cost.bindings.contains(kOwnStatusBinding)) << name;
+        EXPECT_EQ(cost.variables, 0) << name << ": reads are counted where the output is asked for alone";
+    }
 }
