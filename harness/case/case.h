@@ -194,7 +194,7 @@ std::vector<Case> readCaseFile(const std::filesystem::path& file);
 // unknown key or a value out of range.
 std::vector<Case> readCaseFile(const std::filesystem::path& file, const std::map<std::string, std::string>& overrides);
 
-// Every *.toml below `root` in order of path, presets.toml left out; `root` itself when it is a file.
+// Every *.toml below `root` in order of path, presets.toml and sweeps.toml left out; `root` itself when it is a file.
 std::vector<std::filesystem::path> findCaseFiles(const std::filesystem::path& root);
 // One key of the format; the schema is the parser's own table.
 struct CaseKey {

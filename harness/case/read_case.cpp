@@ -284,8 +284,8 @@ std::vector<fs::path> findCaseFiles(const fs::path& root)
     std::vector<fs::path> files;
     for (fs::recursive_directory_iterator entry(root, error), end; !error && entry != end; entry.increment(error)) {
         const fs::path& path = entry->path();
-        if (path.extension() == ".toml" && path.filename() != "presets.toml" && entry->is_regular_file())
-            files.push_back(path);
+        const bool isList = path.filename() == "presets.toml" || path.filename() == "sweeps.toml";
+        if (path.extension() == ".toml" && !isList && entry->is_regular_file()) files.push_back(path);
     }
     if (error) throw InputError({root.string()}, "the folder cannot be read: " + error.message());
     std::sort(files.begin(), files.end());

@@ -27,6 +27,7 @@ struct CommandLine {
     TracersVerbOptions tracers;
     BenchCasesOptions bench;
     BakeOptions bake;
+    SweepVerbOptions sweep;
     CompileVerbOptions compile;
     bool noOptimization = false;
     std::string before, after;
@@ -341,6 +342,39 @@ void addBench(CLI::App& app, CommandLine& line)
     });
 }
 
+void addSweep(CLI::App& app, CommandLine& line)
+{
+    CLI::App& verb = *app.add_subcommand("sweep", "Run a parameter of a case through the edge where its method fails");
+    SweepVerbOptions& sweep = line.sweep;
+    verb.add_option("case", sweep.testCase, "A case's name or file")->type_name("CASE");
+    verb.add_option("parameter", sweep.parameter, "A number of the case format; several by commas take one value")
+        ->type_name("PARAM");
+    verb.add_option("range", sweep.range, "Such as 0.5..2.5:40 or 1..8192:14:log; default: 25 steps")
+        ->type_name("FROM..TO[:STEPS][:log]");
+    verb.add_option("--set", sweep.overrides, "Another key of the case, for all values; may be repeated")
+        ->type_name("KEY=VALUE")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    verb.add_option("--backend", sweep.backends, "As for run; cpu64 is always there")
+        ->type_name("NAME,...")
+        ->delimiter(',')
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    verb.add_option("-j,--jobs", sweep.jobs, "Processors to use; default: all available")
+        ->type_name("N")
+        ->check(CLI::Range(1, 256));
+    verb.add_option("--width", sweep.width, "An edge is bisected to this share of the range; default: 0.0001")
+        ->type_name("SHARE")
+        ->check(CLI::Range(1e-9, 1.0));
+    verb.add_option("-o,--output", sweep.output, "Folder for the curves as SVG, and for CSV and JSON")
+        ->type_name("DIR");
+    verb.add_option("--csv", sweep.csv, "The numbers as CSV")->type_name("FILE");
+    verb.add_flag("--json", sweep.json, "The numbers as JSON on standard output, all text on standard error");
+    verb.add_flag("--all", sweep.all, "Those of sweeps.toml in the case folder, with a README.md");
+    verb.add_option("-k", sweep.filter, "With --all: only those with this in their id")->type_name("TEXT");
+    verb.callback([&line] { line.verb = [&line] { return sweepCase(line.global, line.sweep); }; });
+}
+
 std::unique_ptr<CLI::App> makeApp(CommandLine& line)
 {
     auto app = std::make_unique<CLI::App>(
@@ -360,6 +394,7 @@ std::unique_ptr<CLI::App> makeApp(CommandLine& line)
     addReport(*app, line);
     addTools(*app, line);
     addBench(*app, line);
+    addSweep(*app, line);
     return app;
 }
 

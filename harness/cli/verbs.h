@@ -143,6 +143,20 @@ struct TracersVerbOptions {
 };
 int benchTracers(const GlobalOptions& global, const TracersVerbOptions& options);
 
+struct SweepVerbOptions {
+    std::string testCase, parameter, range;
+    std::vector<std::string> overrides; // KEY=VALUE
+    std::vector<std::string> backends;
+    int jobs = 0;        // 0: all processors
+    double width = 1e-4; // of an edge, as a share of the range
+    std::string output;  // folder; empty: none
+    std::string csv;     // file; empty: none
+    bool json = false;
+    bool all = false;   // those of cases/sweeps.toml
+    std::string filter; // part of their ids
+};
+int sweepCase(const GlobalOptions& global, const SweepVerbOptions& options);
+
 // Cases for a command line: prints what is wrong with it to standard error. `keepGoing` lets broken files pass. The
 // exit code is set when there is nothing to go on with.
 struct SelectedCases {
