@@ -204,6 +204,12 @@ void addReport(CLI::App& app, CommandLine& line)
         ->type_name("FILE")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    report
+        .add_option("--bench", line.report.benches,
+                    "bench.json of `crossray bench`, or `bench tracers --json`, as charts")
+        ->type_name("FILE")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     report.add_flag("--open", line.report.open, "Open it in the browser");
     report.callback([&line] { line.verb = [&line] { return reportRun(line.report); }; });
 }

@@ -19,8 +19,7 @@ namespace {
 std::string readText(const std::string& file)
 {
     std::ifstream stream(file, std::ios::binary);
-    if (!stream)
-        throw InputError({file, 0, 0}, "there is no such file; allowed is what `crossray trace --json` printed");
+    if (!stream) throw InputError({file, 0, 0}, "there is no such file; allowed are JSON files that crossray wrote");
     std::ostringstream content;
     content << stream.rdbuf();
     return content.str();
@@ -58,6 +57,8 @@ int reportRun(const ReportVerbOptions& options)
     report.runFolder = runFolder.generic_string();
     for (const std::string& trace : options.traces)
         report.traces.push_back({trace, readText(trace)});
+    for (const std::string& bench : options.benches)
+        report.benches.push_back({bench, readText(bench)});
     const fs::path target = chooseTarget(options, runFolder);
     const ReportSummary summary = writeReport(run, runFolder, target, report);
     for (const std::string& line : summary.leftOut)

@@ -22,6 +22,7 @@ namespace {
 constexpr size_t kChunkBytes = 256 << 10; // of passed cases' details in one piece
 constexpr size_t kMaxLeftOutLines = 40;
 constexpr std::string_view kTraceSchema = "crossray-trace/1";
+constexpr std::string_view kBenchSchema = "crossray-bench/1", kTracersSchema = "crossray-tracers/1";
 
 // The planes of one case that a report may hold, the most telling first.
 struct PlaneSource {
@@ -41,6 +42,7 @@ class Report {
     ReportSummary make()
     {
         addTraces();
+        addBenches();
         addDetails(true);
         addDetails(false);
         if (options_.isSingle) checkRoom();
@@ -95,7 +97,7 @@ class Report {
 
     void addTraces()
     {
-        for (const ReportTrace& trace : options_.traces) {
+        for (const ReportInput& trace : options_.traces) {
             TracePiece piece;
             try {
                 const nlohmann::json json = nlohmann::json::parse(trace.json);
@@ -112,6 +114,22 @@ class Report {
             piece.piece = fmt::format("trace-{}", index_.traces.size());
             add({piece.piece, trace.json});
             index_.traces.push_back(std::move(piece));
+        }
+    }
+
+    void addBenches()
+    {
+        for (const ReportInput& bench : options_.benches) {
+            const nlohmann::json json = nlohmann::json::parse(bench.json, nullptr, false);
+            const std::string schema = json.is_object() ? json.value("schema", "") : "";
+            if (schema != kBenchSchema && schema != kTracersSchema) {
+                throw InputError({bench.name, 0, 0},
+                                 fmt::format("its schema is \"{}\"; allowed are {}, which `crossray "
+                                             "bench -o DIR` writes, and {} of `bench tracers --json`",
+                                             schema, kBenchSchema, kTracersSchema));
+            }
+            index_.benches.push_back(fmt::format("bench-{}", index_.benches.size()));
+            add({index_.benches.back(), json.dump()});
         }
     }
 
@@ -252,7 +270,8 @@ void removeOldData(const fs::path& folder)
     for (const auto& entry : fs::directory_iterator(data)) {
         const std::string name = entry.path().filename().string();
         const bool isOurs = entry.is_regular_file() && name.ends_with(".js") &&
-                            (name.starts_with("cases-") || name.starts_with("planes-") || name.starts_with("trace-"));
+                            (name.starts_with("cases-") || name.starts_with("planes-") || name.starts_with("trace-") ||
+                             name.starts_with("bench-"));
         if (!isOurs) {
             throw InputError(
                 fmt::format("{}: holds {}, which no report has written; choose another --output", data.string(), name));

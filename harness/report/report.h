@@ -17,9 +17,9 @@ namespace crossray {
 inline constexpr std::string_view kReportSchema = "crossray-report/1";
 inline constexpr size_t kMaxSingleBytes = 20'000'000;
 
-// What `crossray trace --json` printed.
-struct ReportTrace {
-    std::string name; // of its file, for complaints
+// A file that a report shows beside the run.
+struct ReportInput {
+    std::string name; // for complaints
     std::string json;
 };
 
@@ -27,7 +27,8 @@ struct ReportOptions {
     bool isSingle = false;              // one file that holds all its data
     size_t maxBytes = kMaxSingleBytes;  // of that file; what does not fit is left out, and the page says what
     std::string runFolder = "out/last"; // as the commands on the page name it
-    std::vector<ReportTrace> traces;    // shown with the case and pixel that they are of
+    std::vector<ReportInput> traces;    // of `crossray trace --json`, shown with the case and pixel that they are of
+    std::vector<ReportInput> benches; // bench.json of `crossray bench`, or what `bench tracers --json` wrote, as charts
 };
 
 struct ReportSummary {
@@ -39,7 +40,7 @@ struct ReportSummary {
 using ReadPlanes = std::function<std::vector<Plane>(const std::string& file)>;
 using WriteFile = std::function<void(const std::string& file, std::string_view content)>;
 
-// Throws InputError when a trace is none, or when not even the list of cases fits into the single file.
+// Throws InputError when a trace or a bench is none, or when not even the list of cases fits into the single file.
 ReportSummary makeReport(const RunResult& run, const ReportOptions& options, const ReadPlanes& readPlanes,
                          const WriteFile& writeFile);
 

@@ -143,12 +143,16 @@ std::string formatIndexJson(const RunResult& run, const ReportOptions& options, 
                           {"y", trace.y},
                           {"backends", trace.backends}});
     }
+    Json benches = Json::array();
+    for (const std::string& piece : index.benches)
+        benches.push_back({{"piece", piece}});
     const Json json{{"schema", kReportSchema},
                     {"runFolder", options.runFolder},
                     {"run", Json::parse(formatHeadJson(run))},
                     {"outputs", formatOutputs()},
                     {"leftOut", index.leftOut},
                     {"traces", traces},
+                    {"benches", benches},
                     {"cases", cases}};
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

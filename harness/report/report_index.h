@@ -25,6 +25,7 @@ struct TracePiece {
 struct ReportIndex {
     std::vector<CasePieces> cases; // one for each case of the run
     std::vector<TracePiece> traces;
+    std::vector<std::string> benches; // names of pieces
     std::vector<std::string> leftOut;
 };
 

@@ -14,7 +14,7 @@ export function h(tag, attributes = {}, ...children) {
 }
 
 const kMarks = {
-  pass: '✓', fail: '✕', error: '!', crash: '⚡', timeout: '⧗', skip: '–', 'known-fail': '≈', 'unknown-pass': '?', 'missing-golden': '∅',
+  pass: '✓', fail: '✕', error: '!', crash: '#', timeout: 'T', skip: '–', 'known-fail': '≈', 'unknown-pass': '?', 'missing-golden': '∅',
 };
 
 /** A verdict as sign and word: colour is never the only sign. */

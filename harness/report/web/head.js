@@ -75,9 +75,9 @@ export function drawHead(box, { item, details, shown, update, filterTag }) {
     h('div', { class: 'case-title' },
       h('h2', {}, item.name),
       item.mustFail && h('span', { class: 'tag' }, 'must fail'),
-      item.tags.map((tag) => h('button', { type: 'button', class: 'tag', onclick: () => filterTag(tag), 'aria-label': `Filter by tag ${tag}` }, `@${tag}`)),
       h('span', { class: 'dim place' }, `${item.file}:${item.line} · ${item.width} × ${item.height}`)),
-    h('p', { class: 'summary' }, item.summary),
+    h('p', { class: 'summary' }, item.summary, ' ',
+      item.tags.map((tag) => h('button', { type: 'button', class: 'tag', title: 'filter by this tag', onclick: () => filterTag(tag) }, `@${tag}`))),
     backendTabs(item, shown, update),
     outputTabs(shown, details, update),
     expectationLine(shown, details, update),
@@ -99,4 +99,30 @@ export function drawCommands(box, { item, details, shown, index }) {
       h('p', { class: 'dim' }, `No golden decides here: this table in ${item.file} excuses it until its date.`));
   }
   box.replaceChildren(h('h2', {}, failed.length > 0 ? 'See it again, or accept it' : 'See it again'), ...lines);
+}
+
+function figure(expectation, mustFail) {
+  if (!expectation) return h('td', {}, '');
+  if (!expectation.judged) return h('td', { class: 'dim', title: expectation.note }, verdictMark('skip', 'skipped'), 'not judged');
+  const { comparison } = expectation;
+  const isAsWanted = comparison.passed !== mustFail;
+  return h('td', { class: 'number', title: comparison.reason || 'holds' },
+    verdictMark(isAsWanted ? 'pass' : 'fail', isAsWanted ? 'passed' : 'failed'), ` ${formatShort(numberOf(comparison.max), 3)}`);
+}
+
+/** Where there are no planes: the largest error of each expectation on each backend, and what the backends took. */
+export function figuresTable(item, details) {
+  if (!details) return null;
+  const all = new Map();
+  for (const { expectations } of details.backends) for (const each of expectations) all.set(each.index, each);
+  const rows = [...all.values()].sort((a, b) => a.index - b.index);
+  const resultOf = (name) => details.backends.find((each) => each.backend === name);
+  const names = item.results.map((result) => result.backend);
+  return h('div', { class: 'figures-box', tabindex: '0', role: 'region', 'aria-label': 'Figures' }, h('table', { class: 'figures' },
+    h('caption', {}, 'largest error on each backend'),
+    h('thead', {}, h('tr', {}, ['output', 'held to', 'tolerance', ...names].map((name) => h('th', { scope: 'col' }, name)))),
+    h('tbody', {}, rows.map((row) => h('tr', {}, h('th', { scope: 'row' }, row.output), h('td', {}, row.source), h('td', {}, row.tolerance, row.comparison && h('span', { class: 'dim' }, `, errors in ${row.comparison.unit}`)),
+      names.map((name) => figure(resultOf(name)?.expectations.find((each) => each.index === row.index), details.mustFail)))),
+    h('tr', { class: 'times' }, h('th', { scope: 'row' }, 'dispatch, ms'), h('td', {}), h('td', {}),
+      names.map((name) => h('td', { class: 'number' }, formatShort(resultOf(name)?.times.dispatch ?? null, 3)))))));
 }

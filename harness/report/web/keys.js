@@ -15,7 +15,7 @@ const kFilter = [
 ];
 
 const kSigns = [
-  ['✕ ✓ –', 'failed, passed, skipped'], ['! ⚡ ⧗', 'error, crash, time-out'], ['∅', 'no golden file'],
+  ['✕ ✓ –', 'failed, passed, skipped'], ['!  #  T', 'error, crash, time-out'], ['≈  ?', 'failed as known, passed against that'], ['∅', 'no golden file'],
   ['hatched', 'not compared'], ['circle with cross', 'worst pixel'], ['square', 'pixel on the right'],
   ['magenta', 'NaN; in a difference: no number tells'], ['yellow, cyan', '+infinity, −infinity'],
 ];

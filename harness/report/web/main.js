@@ -1,8 +1,9 @@
 // Puts the page together: state changes in, drawings out.
-import { choose, chooseBackend } from 'crossray/choose.js';
+import { drawCharts } from 'crossray/charts.js';
+import { choose } from 'crossray/choose.js';
 import { loadDetails, loadPlanes, readIndex } from 'crossray/data.js';
 import { h, say } from 'crossray/dom.js';
-import { drawCommands, drawHead } from 'crossray/head.js';
+import { drawCommands, drawHead, figuresTable } from 'crossray/head.js';
 import { listenToKeys, openDialog, openHelp } from 'crossray/keys.js';
 import { createList } from 'crossray/list.js';
 import { formatShort, parseTolerance, unitOf } from 'crossray/numbers.js';
@@ -32,7 +33,7 @@ const list = createList(index.cases, (name) => goToCase(name));
 const panes = createPanes(byId('panes'), { state, update, pick: (x, y) => update({ x, y }) });
 
 function goToCase(name) {
-  if (name) update({ case: name, a: '', o: '', e: -1, x: -1, y: -1, vs: 'expected', step: -1, z: 0, cx: 0.5, cy: 0.5 });
+  if (name) update({ page: '', case: name, a: '', o: '', e: -1, x: -1, y: -1, vs: 'expected', step: -1, z: 0, cx: 0.5, cy: 0.5 });
 }
 
 async function loadCase(item) {
@@ -107,8 +108,8 @@ function drawPictures() {
   picture = { mask: null, errors: null, rank: [], count: 0 };
   if (planes.length === 0) {
     const why = shown.result?.reason;
-    panes.message(h('p', {}, model.item.planes ? 'No plane of this output is in the report.' : 'This report holds no planes of this case.'),
-      why && h('pre', {}, why), h('p', { class: 'dim' }, 'A run keeps the planes of cases with a failure; --planes all keeps those of all.'));
+    panes.message(figuresTable(model.item, model.details) ?? '', why ? h('pre', {}, why) : '',
+      h('p', {}, model.item.planes ? 'No plane of this output was kept.' : 'The run kept no planes of this case: it keeps those of cases with a failure, and with --planes all those of all.'));
     return;
   }
   if (shown.expectation && actual) {
@@ -126,6 +127,7 @@ function drawPictures() {
     Object.assign(picture, compareDisplay(shown.type, against.plane, actual.plane, picture.mask, bounds));
     picture.isJudged = bounds !== null;
     picture.rank = rankErrors(picture.errors);
+    picture.differing = picture.errors.reduce((count, error) => count + (error > 0 ? 1 : 0), 0);
     picture.count = picture.beyond.reduce((count, each) => count + each, 0);
     made.push(differencePane());
   }
@@ -134,7 +136,7 @@ function drawPictures() {
 
 function drawPixelPanel() {
   const [x, y] = currentPixel();
-  drawPixel(byId('pixel'), { shown, planesOf: model.planesOf, item: model.item, x, y, mask: picture.mask, outputs: index.outputs, rank: picture.rank, update, goTo });
+  drawPixel(byId('pixel'), { shown, planesOf: model.planesOf, item: model.item, x, y, mask: picture.mask, outputs: index.outputs, rank: picture.rank, differing: picture.differing, update, goTo });
   drawHead(byId('case-head'), {
     item: model.item, details: model.details, shown, update,
     filterTag: (tag) => { byId('filter').value = `@${tag}`; update({ f: `@${tag}` }); },
@@ -149,6 +151,7 @@ async function drawTraceOfPixel() {
   trace = found;
   const most = trace ? Math.max(...trace.backends.map((record) => record.steps.length)) : 0;
   const step = Math.min(state().step, most - 1);
+  document.body.classList.toggle('no-planes', !shown.actual && !shown.expected);
   panes.setOverlay({ worst: shown.actual && worstPixel(), pixel: x >= 0 ? [x, y] : null, trace, step });
   drawCommands(byId('commands'), { item, details: model.details, shown, index });
   drawTracePanel(byId('trace'), { item, shown, x, y, trace, step, index, update, added: takeTrace });
@@ -180,6 +183,7 @@ function react(_, keys) {
     list.draw(state().f);
     list.select(state().case);
   }
+  if (['page', 'error', 'cost'].some((key) => keys.has(key))) showPage();
   const item = cases.get(state().case);
   if (keys.has('case') && item) return void loadCase(item);
   if (!model.item) return;
@@ -192,6 +196,15 @@ function react(_, keys) {
     drawTraceOfPixel();
     panes.draw();
   } else drawAll();
+}
+
+function showPage() {
+  const isCharts = state().page === 'charts' && index.benches.length > 0;
+  byId('charts').hidden = !isCharts;
+  byId('show-charts').setAttribute('aria-pressed', String(isCharts));
+  document.body.classList.toggle('charts-only', isCharts);
+  if (isCharts) drawCharts(byId('charts'), { index, state: state(), update, has: (name) => cases.has(name) });
+  else panes.draw();
 }
 
 function goTo(by) {
@@ -269,6 +282,8 @@ function drawTop() {
   const commit = index.run.commit ? ` · ${index.run.commit.slice(0, 8)}${index.run.modified ? '+' : ''}` : '';
   byId('run-facts').textContent = `${index.run.started.replace('T', ' ').replace('Z', ' UTC')}${commit}`
     + (index.leftOut.length > 0 ? ' · not all planes are in this file: see Run' : '');
+  byId('show-charts').hidden = index.benches.length === 0;
+  byId('show-charts').onclick = () => update({ page: state().page === 'charts' ? '' : 'charts' });
   byId('show-run').onclick = openRun;
   byId('help').onclick = openHelp;
   byId('theme').onclick = () => {
@@ -303,13 +318,13 @@ function start() {
       say(`no trace: ${error.message}`);
     }
   });
+  showPage();
   const item = cases.get(state().case);
   if (state().case !== '' && !item) say(`this run has no case ${state().case}`);
   const first = item ?? cases.get(list.first());
   if (first && first !== item) update({ case: first.name });
   else if (first) loadCase(first);
   else panes.message(h('p', {}, 'This run has no cases.'));
-  if (first && !item && !chooseBackend(first, '')) panes.message(h('p', {}, 'No backend has answered.'));
 }
 
 start();

@@ -93,6 +93,7 @@ export function createPanes(box, hooks) {
   function paint(canvas, layers) {
     const ratio = devicePixelRatio || 1;
     const [w, hgt] = [Math.round(canvas.clientWidth * ratio), Math.round(canvas.clientHeight * ratio)];
+    if (w === 0 || hgt === 0) return; // not on screen
     if (canvas.width !== w || canvas.height !== hgt) Object.assign(canvas, { width: w, height: hgt });
     const context = canvas.getContext('2d');
     const { zoom, left, top } = transform(canvas);
@@ -170,7 +171,7 @@ export function createPanes(box, hooks) {
     const difference = find('difference');
     if (layout === 'difference' && difference) return [makeFigure(difference)];
     if (layout === 'side' || !expected || !actual) return panes.map(makeFigure);
-    const both = { key: 'both', title: layout === 'blink' ? 'in turn:' : `${expected.title} | ${actual.title}`, width: actual.width, height: actual.height };
+    const both = { key: 'both', title: layout === 'blink' ? 'in turn:' : `${expected.title} | ${actual.title}`, facts: `${expected.facts} | ${actual.facts}`, isLoud: expected.isLoud || actual.isLoud, width: actual.width, height: actual.height };
     const figure = makeFigure(both);
     if (layout !== 'blink') {
       const slider = h('input', { type: 'range', min: '0', max: '1', step: '0.005', value: String(split),

@@ -92,7 +92,7 @@ export function drawPixel(box, context) {
     number('y', y, plane.height - 1, (value) => update({ y: value })),
     h('button', { type: 'button', class: 'small', 'aria-keyshortcuts': 'Y', onclick: () => context.goTo(-1) }, '‹ larger'),
     h('button', { type: 'button', class: 'small', 'aria-keyshortcuts': 'U', onclick: () => context.goTo(1) }, 'smaller ›'),
-    h('span', { class: 'dim' }, place >= 0 ? `${place + 1} of ${rank.length} by difference` : rank.length > 0 ? 'no difference here' : ''));
+    h('span', { class: 'dim' }, place >= 0 ? `${place + 1} of ${context.differing} by difference` : rank.length > 0 ? 'no difference here' : ''));
   box.replaceChildren(h('h2', {}, 'Pixel'), coordinates, mainTable(context), sourceLine(context) ?? '', h('h3', {}, 'Every output'), ...otherOutputs(context).filter(Boolean));
   for (const each of box.querySelectorAll('details')) each.open = isOpen.has(each.querySelector('.output-name').textContent);
 }

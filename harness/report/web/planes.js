@@ -109,7 +109,7 @@ export function compareDisplay(type, expected, actual, mask, bounds) {
 }
 
 /** Pixels with an error, the largest first; at most `limit`. */
-export function rankErrors(errors, limit = 4096) {
+export function rankErrors(errors, limit = 65536) {
   const wrong = [];
   for (let i = 0; i < errors.length; ++i) if (errors[i] > 0) wrong.push(i);
   wrong.sort((a, b) => (errors[b] === errors[a] ? a - b : errors[b] - errors[a]));

@@ -2,6 +2,8 @@
 
 /** Every key with its value at the start. A key that has this value is not in the hash. */
 export const kDefaults = {
+  page: '', // charts, or a case
+  error: '', cost: '', // of the charts
   f: '', // text of the filter
   case: '',
   a: '', // backend

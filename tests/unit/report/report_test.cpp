@@ -188,6 +188,20 @@ TEST(Report, tracesAreOfTheirSchemaOrRefused)
     }
 }
 
+TEST(Report, benchesAreOfTheirSchemaOrRefused)
+{
+    const ReportFixture fixture;
+    ReportOptions options;
+    options.benches = {{"bench.json", R"({"schema": "crossray-bench/1", "scenes": ["</script>"]})"}};
+    const auto files = fixture.make(options);
+    EXPECT_EQ(readPiece(files.at("index.html"), "index")["benches"][0]["piece"], "bench-0");
+    EXPECT_EQ(readScript(files.at("data/bench-0.js"))["scenes"][0], "</script>");
+    for (const char* text : {"", "[]", "{}", R"({"schema": "crossray-bench/2"})"}) {
+        options.benches = {{"bad.json", text}};
+        EXPECT_THROW(fixture.make(options), InputError) << text;
+    }
+}
+
 TEST(Report, equalAnswersAreStoredOnce)
 {
     const ReportFixture fixture;
