@@ -210,6 +210,10 @@ void addReport(CLI::App& app, CommandLine& line)
         ->type_name("FILE")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    report.add_option("--cubemap", line.report.cubemaps, "A cubemap file, to look about in; may be repeated")
+        ->type_name("FILE.exr")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     report.add_flag("--open", line.report.open, "Open it in the browser");
     report.callback([&line] { line.verb = [&line] { return reportRun(line.report); }; });
 }

@@ -59,6 +59,8 @@ int reportRun(const ReportVerbOptions& options)
         report.traces.push_back({trace, readText(trace)});
     for (const std::string& bench : options.benches)
         report.benches.push_back({bench, readText(bench)});
+    for (const std::string& cubemap : options.cubemaps)
+        report.cubemaps.push_back({cubemap, readCubemap(cubemap)});
     const fs::path target = chooseTarget(options, runFolder);
     const ReportSummary summary = writeReport(run, runFolder, target, report);
     for (const std::string& line : summary.leftOut)

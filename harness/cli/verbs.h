@@ -99,7 +99,7 @@ struct ReportVerbOptions {
     std::string run = "out/last";
     bool isSingle = false;
     std::string output; // folder, or for a single one the file; empty: beside the run.json
-    std::vector<std::string> traces, benches;
+    std::vector<std::string> traces, benches, cubemaps;
     bool open = false; // in a browser
 };
 int reportRun(const ReportVerbOptions& options);

@@ -74,6 +74,22 @@ std::string PlaneEncoder::encode(const std::string& source, std::span<const Plan
     return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
+std::string encodeCubemap(const Cubemap& cubemap)
+{
+    nlohmann::ordered_json levels = nlohmann::ordered_json::array();
+    for (int level = 0; level < cubemap.levelCount(); ++level) {
+        const int side = cubemap.sizeOf(level);
+        Plane plane({}, side, side * kCubeFaces, 3);
+        size_t value = 0;
+        for (const glm::dvec3& texel : cubemap.levels[static_cast<size_t>(level)]) {
+            for (int channel = 0; channel < 3; ++channel)
+                plane.values[value++] = texel[channel];
+        }
+        levels.push_back(encodeBase64(packPlane(plane)));
+    }
+    return nlohmann::ordered_json{{"size", cubemap.size}, {"levels", levels}}.dump();
+}
+
 void PlaneEncoder::forget(const std::string& source)
 {
     for (auto& [name, others] : written_)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "harness/base/plane.h"
+#include "harness/scene/cubemap.h"
 
 #include <map>
 #include <span>
@@ -26,6 +27,9 @@ class PlaneEncoder {
     };
     std::map<std::string, std::vector<Written>> written_; // by the plane's name
 };
+
+// {"size":..,"levels":[BASE64]}: each level as a plane of the six faces below one another.
+std::string encodeCubemap(const Cubemap& cubemap);
 
 // The deflated bytes of one plane.
 std::string packPlane(const Plane& plane);

@@ -43,6 +43,7 @@ class Report {
     {
         addTraces();
         addBenches();
+        addCubemaps();
         addDetails(true);
         addDetails(false);
         if (options_.isSingle) checkRoom();
@@ -130,6 +131,15 @@ class Report {
             }
             index_.benches.push_back(fmt::format("bench-{}", index_.benches.size()));
             add({index_.benches.back(), json.dump()});
+        }
+    }
+
+    void addCubemaps()
+    {
+        for (const ReportCubemap& item : options_.cubemaps) {
+            const std::string piece = fmt::format("cubemap-{}", index_.cubemaps.size());
+            add({piece, encodeCubemap(item.cubemap)});
+            index_.cubemaps.emplace_back(item.name, piece);
         }
     }
 
@@ -271,7 +281,7 @@ void removeOldData(const fs::path& folder)
         const std::string name = entry.path().filename().string();
         const bool isOurs = entry.is_regular_file() && name.ends_with(".js") &&
                             (name.starts_with("cases-") || name.starts_with("planes-") || name.starts_with("trace-") ||
-                             name.starts_with("bench-"));
+                             name.starts_with("bench-") || name.starts_with("cubemap-"));
         if (!isOurs) {
             throw InputError(
                 fmt::format("{}: holds {}, which no report has written; choose another --output", data.string(), name));

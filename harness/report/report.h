@@ -4,6 +4,7 @@
 
 #include "harness/base/plane.h"
 #include "harness/run/results.h"
+#include "harness/scene/cubemap.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -23,11 +24,17 @@ struct ReportInput {
     std::string json;
 };
 
+struct ReportCubemap {
+    std::string name;
+    Cubemap cubemap;
+};
+
 struct ReportOptions {
     bool isSingle = false;              // one file that holds all its data
     size_t maxBytes = kMaxSingleBytes;  // of that file; what does not fit is left out, and the page says what
     std::string runFolder = "out/last"; // as the commands on the page name it
     std::vector<ReportInput> traces;    // of `crossray trace --json`, shown with the case and pixel that they are of
+    std::vector<ReportCubemap> cubemaps;
     std::vector<ReportInput> benches; // bench.json of `crossray bench`, or what `bench tracers --json` wrote, as charts
 };
 

@@ -146,14 +146,13 @@ std::string formatIndexJson(const RunResult& run, const ReportOptions& options, 
     Json benches = Json::array();
     for (const std::string& piece : index.benches)
         benches.push_back({{"piece", piece}});
-    const Json json{{"schema", kReportSchema},
-                    {"runFolder", options.runFolder},
-                    {"run", Json::parse(formatHeadJson(run))},
-                    {"outputs", formatOutputs()},
-                    {"leftOut", index.leftOut},
-                    {"traces", traces},
-                    {"benches", benches},
-                    {"cases", cases}};
+    Json cubemaps = Json::array();
+    for (const auto& [name, piece] : index.cubemaps)
+        cubemaps.push_back({{"name", name}, {"piece", piece}});
+    const Json json{
+        {"schema", kReportSchema},    {"runFolder", options.runFolder}, {"run", Json::parse(formatHeadJson(run))},
+        {"outputs", formatOutputs()}, {"leftOut", index.leftOut},       {"traces", traces},
+        {"benches", benches},         {"cubemaps", cubemaps},           {"cases", cases}};
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -25,7 +25,8 @@ struct TracePiece {
 struct ReportIndex {
     std::vector<CasePieces> cases; // one for each case of the run
     std::vector<TracePiece> traces;
-    std::vector<std::string> benches; // names of pieces
+    std::vector<std::string> benches;                          // names of pieces
+    std::vector<std::pair<std::string, std::string>> cubemaps; // name and piece
     std::vector<std::string> leftOut;
 };
 

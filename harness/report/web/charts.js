@@ -1,7 +1,7 @@
 // Error against cost, of what `crossray bench` measured: both axes logarithmic, an error of 0 in a band of its own, the
 // methods that no other beats joined by a line. A point leads to the case whose scene it was measured on.
 import { loadPiece } from 'crossray/data.js';
-import { h } from 'crossray/dom.js';
+import { h, redraw } from 'crossray/dom.js';
 import { formatShort } from 'crossray/numbers.js';
 
 const kCosts = { Fetches: 'reads a ray', FetchesOf32: 'reads, largest of 32 rays', Iterations: 'steps a ray', IterationsOf32: 'steps, largest of 32 rays', ratio: 'time, as a ratio to the G-buffer pass' };
@@ -148,7 +148,7 @@ export async function drawCharts(box, { index, state, update, has }) {
       h('div', { class: 'chart-row' }, drawScatter(chart, cost, shown, hasCase), h('div', { class: 'chart-table', tabindex: '0', role: 'region', 'aria-label': `Figures of ${chart.title}` }, drawTable(chart, cost, shown)),
         chart.reliability?.length > 0 && drawReliability(chart.reliability)));
   });
-  box.replaceChildren(h('h2', {}, 'Error against cost'),
+  redraw(box, h('h2', {}, 'Error against cost'),
     h('div', { class: 'chart-controls' }, choice('error ', error, [['', 'the first of each'], ...errors.map((name) => [name, name])], (value) => update({ error: value })),
       choice('cost ', cost, costs.map((name) => [name, kCosts[name]]), (value) => update({ cost: value })),
       h('button', { type: 'button', class: 'small', onclick: () => update({ page: '' }) }, 'back to the case')), ...sections);

@@ -13,6 +13,14 @@ export function h(tag, attributes = {}, ...children) {
   return element;
 }
 
+/** Draws `box` anew and gives the focus back to the control that stands where the focused one stood. */
+export function redraw(box, ...content) {
+  const controls = () => [...box.querySelectorAll('button, select, input, summary, [tabindex]')];
+  const at = controls().indexOf(document.activeElement);
+  box.replaceChildren(...content.flat().filter((child) => child !== null && child !== undefined && child !== false));
+  if (at >= 0) controls()[at]?.focus({ preventScroll: true });
+}
+
 const kMarks = {
   pass: '✓', fail: '✕', error: '!', crash: '#', timeout: 'T', skip: '–', 'known-fail': '≈', 'unknown-pass': '?', 'missing-golden': '∅',
 };

@@ -1,6 +1,6 @@
 // Above the pictures: what the case claims, which backend and output are shown, and what the expectation says.
 import { acceptCommand, knownFailureToml, runCommand } from 'crossray/commands.js';
-import { commandLine, h, verdictMark } from 'crossray/dom.js';
+import { commandLine, h, redraw, verdictMark } from 'crossray/dom.js';
 import { className, formatShort, numberOf } from 'crossray/numbers.js';
 
 function backendTabs(item, shown, update) {
@@ -54,7 +54,9 @@ function expectationLine(shown, details, update) {
     all.map((each) => h('option', { value: each.index, selected: each.index === expectation.index }, `${each.source} (line ${each.position.line})`)));
   const { comparison } = expectation;
   const verdict = !expectation.judged ? ['skip', 'skipped', expectation.note || 'not judged']
-    : comparison.passed ? ['pass', 'passed', 'holds'] : ['fail', 'failed', comparison.reason];
+    : details.mustFail && !comparison.passed ? ['pass', 'passed', `fails, as it must: ${comparison.reason}`]
+      : details.mustFail ? ['fail', 'failed', 'holds, and must fail']
+        : comparison.passed ? ['pass', 'passed', 'holds'] : ['fail', 'failed', comparison.reason];
   return h('div', { class: 'expectation' },
     h('p', {}, verdictMark(verdict[0], verdict[1]), h('span', { class: 'why' }, verdict[2])),
     h('p', { class: 'dim' }, select || expectation.source, h('span', {}, ` · tolerance ${expectation.tolerance} · `), h('code', {}, place)),
@@ -71,7 +73,7 @@ function rest(item, details, shown) {
 
 /** Fills the head. */
 export function drawHead(box, { item, details, shown, update, filterTag }) {
-  box.replaceChildren(
+  redraw(box,
     h('div', { class: 'case-title' },
       h('h2', {}, item.name),
       item.mustFail && h('span', { class: 'tag' }, 'must fail'),
@@ -81,7 +83,7 @@ export function drawHead(box, { item, details, shown, update, filterTag }) {
     backendTabs(item, shown, update),
     outputTabs(shown, details, update),
     expectationLine(shown, details, update),
-    rest(item, details, shown) ?? '');
+    rest(item, details, shown));
 }
 
 /** The command that shows it again, and for a failure what accepts it: a golden by review, else a known failure. */
@@ -98,7 +100,7 @@ export function drawCommands(box, { item, details, shown, index }) {
     lines.push(commandLine('accept', knownFailureToml(failed, reason, until)),
       h('p', { class: 'dim' }, `No golden decides here: this table in ${item.file} excuses it until its date.`));
   }
-  box.replaceChildren(h('h2', {}, failed.length > 0 ? 'See it again, or accept it' : 'See it again'), ...lines);
+  redraw(box, h('h2', {}, failed.length > 0 ? 'See it again, or accept it' : 'See it again'), ...lines);
 }
 
 function figure(expectation, mustFail) {

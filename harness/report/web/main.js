@@ -1,6 +1,7 @@
 // Puts the page together: state changes in, drawings out.
 import { drawCharts } from 'crossray/charts.js';
 import { choose } from 'crossray/choose.js';
+import { drawCubemaps } from 'crossray/cubemap.js';
 import { loadDetails, loadPlanes, readIndex } from 'crossray/data.js';
 import { h, say } from 'crossray/dom.js';
 import { drawCommands, drawHead, figuresTable } from 'crossray/head.js';
@@ -18,6 +19,7 @@ import { drawDifference, drawPlane, resolveView } from 'crossray/views.js';
 const kSchema = 'crossray-report/1';
 const byId = (id) => document.getElementById(id);
 const index = readIndex();
+const pages = [index.benches.length > 0 && 'charts', index.cubemaps.length > 0 && 'cubemaps']; // beside that of a case
 const cases = new Map(index.cases.map((item) => [item.name, item]));
 
 // What is loaded of the chosen case, and what choose() made of it.
@@ -102,19 +104,33 @@ function differencePane() {
   };
 }
 
+// Everything that depends on what is compared and not on how it is shown.
+function comparePlanes() {
+  const { against, actual, expectation } = shown;
+  const found = { shown, mask: null, errors: null, rank: [], count: 0 };
+  if (expectation && actual) {
+    const hits = model.planesOf.get(shown.backend)?.find((plane) => plane.name === 'HitSuccess');
+    found.mask = compareMask(model.planesOf.get('expected') ?? [], expectation.index, hits);
+  }
+  if (!against || !actual) return found;
+  const bounds = shown.isAgainstBackend || !expectation ? null : parseTolerance(expectation.tolerance);
+  Object.assign(found, compareDisplay(shown.type, against.plane, actual.plane, found.mask, bounds));
+  found.isJudged = bounds !== null;
+  found.rank = rankErrors(found.errors);
+  found.differing = found.errors.reduce((count, error) => count + (error > 0 ? 1 : 0), 0);
+  found.count = found.beyond.reduce((count, each) => count + each, 0);
+  return found;
+}
+
 function drawPictures() {
   const { expected, against, actual } = shown;
   const planes = [expected, against, actual].filter(Boolean).map((each) => each.plane);
-  picture = { mask: null, errors: null, rank: [], count: 0 };
+  if (picture.shown !== shown) picture = comparePlanes();
   if (planes.length === 0) {
     const why = shown.result?.reason;
     panes.message(figuresTable(model.item, model.details) ?? '', why ? h('pre', {}, why) : '',
       h('p', {}, model.item.planes ? 'No plane of this output was kept.' : 'The run kept no planes of this case: it keeps those of cases with a failure, and with --planes all those of all.'));
     return;
-  }
-  if (shown.expectation && actual) {
-    const hits = model.planesOf.get(shown.backend)?.find((plane) => plane.name === 'HitSuccess');
-    picture.mask = compareMask(model.planesOf.get('expected') ?? [], shown.expectation.index, hits);
   }
   const view = resolveView({ mode: state().mode, exposure: state().ev, offset: state().off, gamma: state().gamma, normalise: state().norm === 1, channel: state().ch }, shown.type);
   view.range = rangeOf(planes, state().ch < planes[0].channels ? state().ch : -1);
@@ -122,15 +138,7 @@ function drawPictures() {
   if (shown.isAgainstBackend && expected) made.push(planePane('expected', expected, view, picture.mask));
   if (against) made.push(planePane('against', against, view, picture.mask));
   if (actual) made.push(planePane('actual', actual, view, null));
-  if (against && actual) {
-    const bounds = shown.isAgainstBackend || !shown.expectation ? null : parseTolerance(shown.expectation.tolerance);
-    Object.assign(picture, compareDisplay(shown.type, against.plane, actual.plane, picture.mask, bounds));
-    picture.isJudged = bounds !== null;
-    picture.rank = rankErrors(picture.errors);
-    picture.differing = picture.errors.reduce((count, error) => count + (error > 0 ? 1 : 0), 0);
-    picture.count = picture.beyond.reduce((count, each) => count + each, 0);
-    made.push(differencePane());
-  }
+  if (picture.errors) made.push(differencePane());
   panes.show(made);
 }
 
@@ -166,15 +174,21 @@ function takeTrace(given) {
   drawTraceOfPixel();
 }
 
+function drawTools() {
+  drawToolbar(byId('toolbar'), { state: state(), shown, sources: [...model.planesOf.keys()], update });
+}
+
 function drawAll() {
   shown = choose(state(), model.item, model.details, model.planesOf, index.outputs);
   drawPictures();
-  drawToolbar(byId('toolbar'), { state: state(), shown, sources: [...model.planesOf.keys()], update });
+  drawTools();
   drawPixelPanel();
   drawTraceOfPixel();
 }
 
 const kPlaces = new Set(['z', 'cx', 'cy']);
+const kOther = new Set(['f', 'page', 'error', 'cost', 'cube', 'yaw', 'pitch', 'fov', 'mip', 'glow']); // not of the pictures
+const kView = new Set(['mode', 'ev', 'off', 'norm', 'ch', 'gamma', 'dx', 'signed', 'layout', 'hatch', 'worst', 'grid']);
 const kPixel = new Set(['x', 'y', 'step', 'follow']);
 
 function react(_, keys) {
@@ -183,15 +197,18 @@ function react(_, keys) {
     list.draw(state().f);
     list.select(state().case);
   }
-  if (['page', 'error', 'cost'].some((key) => keys.has(key))) showPage();
+  if (['page', 'error', 'cost', 'cube'].some((key) => keys.has(key))) showPage();
   const item = cases.get(state().case);
   if (keys.has('case') && item) return void loadCase(item);
   if (!model.item) return;
   const isOnly = (allowed) => [...keys].every((key) => allowed.has(key) || kPlaces.has(key));
   if (isOnly(kPlaces)) panes.draw();
-  else if (isOnly(new Set(['f']))) return;
+  else if (isOnly(kOther)) return;
   else if (isOnly(new Set(['split']))) panes.draw();
-  else if (isOnly(kPixel)) {
+  else if (isOnly(kView)) {
+    drawPictures();
+    drawTools();
+  } else if (isOnly(kPixel)) {
     drawPixelPanel();
     drawTraceOfPixel();
     panes.draw();
@@ -199,11 +216,16 @@ function react(_, keys) {
 }
 
 function showPage() {
-  const isCharts = state().page === 'charts' && index.benches.length > 0;
-  byId('charts').hidden = !isCharts;
-  byId('show-charts').setAttribute('aria-pressed', String(isCharts));
-  document.body.classList.toggle('charts-only', isCharts);
-  if (isCharts) drawCharts(byId('charts'), { index, state: state(), update, has: (name) => cases.has(name) });
+  const page = pages.includes(state().page) ? state().page : '';
+  for (const name of ['charts', 'cubemaps']) {
+    byId(name).hidden = name !== page;
+    byId(`show-${name}`).hidden = !pages.includes(name);
+    byId(`show-${name}`).setAttribute('aria-pressed', String(name === page));
+    byId(`show-${name}`).onclick = () => update({ page: state().page === name ? '' : name });
+  }
+  document.body.classList.toggle('other-page', page !== '');
+  if (page === 'charts') drawCharts(byId('charts'), { index, state: state(), update, has: (name) => cases.has(name) });
+  else if (page === 'cubemaps') drawCubemaps(byId('cubemaps'), { index, state, update });
   else panes.draw();
 }
 
@@ -282,8 +304,10 @@ function drawTop() {
   const commit = index.run.commit ? ` · ${index.run.commit.slice(0, 8)}${index.run.modified ? '+' : ''}` : '';
   byId('run-facts').textContent = `${index.run.started.replace('T', ' ').replace('Z', ' UTC')}${commit}`
     + (index.leftOut.length > 0 ? ' · not all planes are in this file: see Run' : '');
-  byId('show-charts').hidden = index.benches.length === 0;
-  byId('show-charts').onclick = () => update({ page: state().page === 'charts' ? '' : 'charts' });
+  byId('skip').onclick = (event) => { // the hash is the state, no place in the page
+    event.preventDefault();
+    byId('panes').focus();
+  };
   byId('show-run').onclick = openRun;
   byId('help').onclick = openHelp;
   byId('theme').onclick = () => {

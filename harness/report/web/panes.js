@@ -1,6 +1,6 @@
 // The pictures under one shared zoom and pan. A pane is a canvas; its picture is drawn once into an image of the plane's
 // size and then scaled, so that moving about costs nothing.
-import { h } from 'crossray/dom.js';
+import { h, redraw } from 'crossray/dom.js';
 import { drawGrid, drawHatch, drawMarker, drawTrace } from 'crossray/overlays.js';
 
 const kMaxZoom = 128;
@@ -192,7 +192,7 @@ export function createPanes(box, hooks) {
     }
     const figures = figuresFor();
     box.dataset.count = figures.length;
-    box.replaceChildren(...figures);
+    redraw(box, figures);
     draw();
   }
 

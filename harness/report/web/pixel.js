@@ -1,5 +1,5 @@
 // The right side: one pixel, each output on each backend, as exact as the planes are.
-import { h } from 'crossray/dom.js';
+import { h, redraw } from 'crossray/dom.js';
 import { className, floatHex, formatFloat, formatShort, pixelError, ulpDistance, unitOf } from 'crossray/numbers.js';
 
 function valueText(type, value) {
@@ -93,6 +93,6 @@ export function drawPixel(box, context) {
     h('button', { type: 'button', class: 'small', 'aria-keyshortcuts': 'Y', onclick: () => context.goTo(-1) }, '‹ larger'),
     h('button', { type: 'button', class: 'small', 'aria-keyshortcuts': 'U', onclick: () => context.goTo(1) }, 'smaller ›'),
     h('span', { class: 'dim' }, place >= 0 ? `${place + 1} of ${context.differing} by difference` : rank.length > 0 ? 'no difference here' : ''));
-  box.replaceChildren(h('h2', {}, 'Pixel'), coordinates, mainTable(context), sourceLine(context) ?? '', h('h3', {}, 'Every output'), ...otherOutputs(context).filter(Boolean));
+  redraw(box, h('h2', {}, 'Pixel'), coordinates, mainTable(context), sourceLine(context), h('h3', {}, 'Every output'), otherOutputs(context));
   for (const each of box.querySelectorAll('details')) each.open = isOpen.has(each.querySelector('.output-name').textContent);
 }

@@ -1,5 +1,5 @@
 // How the pictures are drawn: one control for each key of the state that concerns it.
-import { h } from 'crossray/dom.js';
+import { h, redraw } from 'crossray/dom.js';
 import { kModes } from 'crossray/views.js';
 
 const kLayouts = { side: 'side by side', slider: 'slider', onion: 'onion', blink: 'blink', difference: 'difference alone' };
@@ -25,8 +25,7 @@ function check(label, value, change) {
 
 /** `shown`: what choose() found; `sources`: backends whose planes are there. */
 export function drawToolbar(box, { state, shown, sources, update }) {
-  const focused = box.contains(document.activeElement) ? document.activeElement.id : '';
-  if (focused && focused === document.activeElement?.id && document.activeElement.type === 'range') return; // being moved
+  if (box.contains(document.activeElement) && document.activeElement.type === 'range') return; // being moved
   const against = { expected: 'expected' };
   for (const source of sources) if (source !== 'expected' && source !== shown.backend) against[source] = source;
   const channels = { '-1': 'all' };
@@ -34,7 +33,7 @@ export function drawToolbar(box, { state, shown, sources, update }) {
   if (count > 1) ['x', 'y', 'z', 'w'].slice(0, count).forEach((name, i) => (channels[i] = shown.type === 'color' ? 'rgb'[i] : name));
   const levels = { '-1': 'off' };
   for (let level = 0; level <= 8; ++level) levels[level] = `level ${level}`;
-  box.replaceChildren(
+  redraw(box,
     select('against', state.vs in against ? state.vs : 'expected', against, (value) => update({ vs: value })),
     select('layout', state.layout, kLayouts, (value) => update({ layout: value }), 'B D'),
     select('view', state.mode, kModes, (value) => update({ mode: value })),

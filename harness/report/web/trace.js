@@ -1,7 +1,7 @@
 // The bottom: what the ray of the pixel did, when a trace of it is at hand; else the command that prints it.
 import { traceCommand } from 'crossray/commands.js';
 import { loadPiece } from 'crossray/data.js';
-import { commandLine, h, say } from 'crossray/dom.js';
+import { commandLine, h, redraw, say } from 'crossray/dom.js';
 import { formatShort } from 'crossray/numbers.js';
 
 const dropped = []; // traces that a person gave to the page
@@ -118,7 +118,7 @@ export function drawTracePanel(box, context) {
     const others = tracedPixels(index, item.name);
     const partner = shown.isAgainstBackend ? [shown.against.title] : shown.expectation?.source.startsWith('agree with ')
       ? [shown.expectation.source.slice('agree with '.length)] : [];
-    box.replaceChildren(title,
+    redraw(box, title,
       x >= 0 ? commandLine('shows its ray', `${traceCommand(item.name, x, y, [shown.backend, ...partner])}`) : '',
       x >= 0 ? commandLine('into this report', `${traceCommand(item.name, x, y, [shown.backend, ...partner], true)} > pixel.json && crossray report ${index.runFolder} --trace pixel.json`) : '',
       fileInput(added),
@@ -127,7 +127,7 @@ export function drawTracePanel(box, context) {
   }
   const scrolled = box.querySelector('.steps-box')?.scrollTop ?? 0;
   const table = h('div', { class: 'steps-box', tabindex: '0', role: 'region', 'aria-label': 'Steps' }, stepTable(trace, step, (value) => update({ step: value })));
-  box.replaceChildren(title, h('div', { class: 'trace-facts' }, trace.backends.map((record) => h('p', {}, facts(record))),
+  redraw(box, title, h('div', { class: 'trace-facts' }, trace.backends.map((record) => h('p', {}, facts(record))),
     trace.parting && h('p', { class: 'warn' }, trace.parting.sentence)),
   h('div', { class: 'trace-body' }, table, depthChart(trace, step) ?? ''));
   table.scrollTop = scrolled;

@@ -80,8 +80,10 @@ found.help = one('dialog').open;
 one('dialog').close();
 one('#filter').value = '';
 one('#filter').dispatchEvent(new Event('input'));
+one('#skip').click();
+found.skipped = document.activeElement.id;
+found.case = one('.case-title h2').textContent;
 found.commands = one('#commands').textContent;
-found.traceShown = document.querySelectorAll('.steps tbody tr').length;
 document.body.append(Object.assign(document.createElement('pre'), { id: 'found', textContent: JSON.stringify(found) }));
 </script>
 )";
@@ -145,6 +147,8 @@ class BrowserTest : public testing::Test {
         EXPECT_EQ(found["filtered"], "refraction/crashes");
         EXPECT_NE(found["hash"].get<std::string>().find("f=s%3Acrash"), std::string::npos) << found["hash"];
         EXPECT_TRUE(found["help"]);
+        EXPECT_EQ(found["skipped"], "panes");
+        EXPECT_EQ(found["case"], "refraction/crashes"); // the only one under the filter
         EXPECT_NE(found["commands"].get<std::string>().find("crossray run "), std::string::npos);
     }
 
