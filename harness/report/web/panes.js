@@ -4,6 +4,7 @@ import { h, redraw } from 'crossray/dom.js';
 import { drawGrid, drawHatch, drawMarker, drawTrace } from 'crossray/overlays.js';
 
 const kMaxZoom = 128;
+const kCaption = 48; // screen pixels above and between the pictures
 
 /**
  * `hooks`: {get state, update(patch), pick(x, y)}. show(panes) takes [{key, title, facts, bytes, width, height, mask,
@@ -136,8 +137,20 @@ export function createPanes(box, hooks) {
     return [{ pane: (blinkOn || shiftHeld) ? expected : actual }];
   }
 
+  // As many columns as show the pictures largest.
+  function layOut() {
+    const count = box.querySelectorAll('figure').length;
+    if (count === 0) return;
+    const [width, height] = size();
+    const scale = (columns) => Math.min(box.clientWidth / columns / width, (box.clientHeight / Math.ceil(count / columns) - kCaption) / height);
+    let best = 1;
+    for (let columns = 2; columns <= count; ++columns) if (scale(columns) > scale(best)) best = columns;
+    box.style.gridTemplateColumns = `repeat(${best}, minmax(0, 1fr))`;
+  }
+
   function drawNow() {
     frame = 0;
+    layOut();
     for (const figure of box.querySelectorAll('figure')) {
       const pane = figure.pane;
       const layers = layersOf(pane);
@@ -191,7 +204,6 @@ export function createPanes(box, hooks) {
       }, 600);
     }
     const figures = figuresFor();
-    box.dataset.count = figures.length;
     redraw(box, figures);
     draw();
   }
@@ -206,7 +218,7 @@ export function createPanes(box, hooks) {
     message(...content) {
       panes = [];
       clearInterval(blinkTimer);
-      box.dataset.count = 0;
+      box.style.gridTemplateColumns = '';
       box.replaceChildren(h('div', { class: 'message' }, ...content));
     },
     setOverlay(next) {
