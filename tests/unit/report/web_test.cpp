@@ -28,6 +28,10 @@ bool isInstalled(const std::string& program)
 
 // What a person does, in the page itself: its findings are left in the document for --dump-dom.
 constexpr const char* kPerson = R"(
+<script>
+// In virtual time a browser without a window may come to no frame at all.
+requestAnimationFrame = (draw) => setTimeout(() => draw(performance.now()));
+</script>
 <script type="module">
 const wait = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
 const until = async (what) => { for (let i = 0; i < 100 && !what(); ++i) await wait(20); };
@@ -55,8 +59,10 @@ canvas.dispatchEvent(new PointerEvent('pointerup', at));
 await wait(50);
 found.clicked = [...document.querySelectorAll('.coordinates input')].map((input) => input.value).join();
 found.nan = row('osmesa');
-const center = canvas.getContext('2d').getImageData(Math.round((at.clientX - bounds.left) * devicePixelRatio + 12), Math.round((at.clientY - bounds.top) * devicePixelRatio + 12), 1, 1).data;
-found.nanColor = [...center.slice(0, 3)].join();
+const colorThere = () => [...canvas.getContext('2d').getImageData(Math.round((at.clientX - bounds.left) * devicePixelRatio + 12),
+  Math.round((at.clientY - bounds.top) * devicePixelRatio + 12), 1, 1).data.slice(0, 3)].join();
+await until(() => colorThere() === '255,0,255'); // painted in a frame to come
+found.nanColor = colorThere();
 key('u');
 await wait(50);
 found.afterU = [...document.querySelectorAll('.coordinates input')].map((input) => input.value).join();
