@@ -115,9 +115,10 @@ std::vector<Chart> makeTracerCharts(const TracerReportHead& head, std::span<cons
     for (const MeasuredTracer& tracer : rows) {
         const TracerScore& m = tracer.row.mean;
         const bool isBound = tracer.row.name.starts_with("oracle");
-        cost.points.push_back({tracer.row.name, m.fetches, m.wrong, isBound});
-        group.points.push_back({tracer.row.name, m.groupFetches, m.wrong, isBound});
-        if (!isBound) knob.points.push_back({tracer.row.name, m.falseShare, 1 - m.recall});
+        const bool isOwn = std::find(head.own.begin(), head.own.end(), tracer.row.name) != head.own.end();
+        cost.points.push_back({tracer.row.name, m.fetches, m.wrong, isBound, isOwn});
+        group.points.push_back({tracer.row.name, m.groupFetches, m.wrong, isBound, isOwn});
+        if (!isBound) knob.points.push_back({tracer.row.name, m.falseShare, 1 - m.recall, false, isOwn});
     }
     return {cost, group, knob};
 }

@@ -13,6 +13,7 @@ struct TracerReportHead {
     YardstickOptions options;
     double thickness = 0;
     std::string scene;
+    std::vector<std::string> own; // names of the person's own tracers
 };
 
 std::string formatTracerJson(const TracerReportHead& head, std::span<const MeasuredTracer> rows);

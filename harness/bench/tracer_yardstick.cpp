@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <exception>
 #include <mutex>
 #include <thread>
 
@@ -169,7 +170,8 @@ std::vector<MeasuredTracer> measureTracers(std::span<const TracerMethod> methods
     std::vector<Tally> tallies = makeTallies(methods.size(), scenes);
     std::atomic<size_t> next = 0;
     std::mutex reporting;
-    const auto work = [&] {
+    std::exception_ptr failure; // the first one; it ends the others' work, too
+    const auto measureAll = [&] {
         for (size_t index = next++; index < scenes; index = next++) {
             const uint64_t seed = options.firstSeed + index;
             const YardstickScene scene = makeYardstickScene(options.family, seed, options.width, options.height,
@@ -179,11 +181,21 @@ std::vector<MeasuredTracer> measureTracers(std::span<const TracerMethod> methods
             if (report) report(seed);
         }
     };
+    const auto work = [&] {
+        try {
+            measureAll();
+        } catch (...) {
+            next = scenes;
+            const std::lock_guard lock(reporting);
+            if (!failure) failure = std::current_exception();
+        }
+    };
     std::vector<std::jthread> threads;
     for (int i = 1; i < options.threads; ++i)
         threads.emplace_back(work);
     work();
     threads.clear(); // joins
+    if (failure) std::rethrow_exception(failure);
     return finish(methods, tallies);
 }
 

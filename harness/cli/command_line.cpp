@@ -310,8 +310,11 @@ void addTracers(CLI::App& bench, CommandLine& line)
     verb.add_option("--json", options.json, "The figures as JSON")->type_name("FILE");
     verb.add_option("--csv", options.csv, "The figures as CSV")->type_name("FILE");
     verb.add_option("--charts", options.charts, "Charts as SVG")->type_name("DIR");
-    verb.add_option("--method", options.methods, "Not here: crossray bench CASE --method NAME=FILE")
-        ->type_name("NAME=FILE");
+    verb.add_option("--method", options.methods, "A tracer of your own beside them; repeated: several")
+        ->type_name("NAME=FILE")
+        ->take_all()
+        ->allow_extra_args(false);
+    verb.add_option("--backend", options.backend, "Where it runs; default: lavapipe")->type_name("NAME");
     verb.callback([&line] { line.verb = [&line] { return benchTracers(line.global, line.tracers); }; });
 }
 

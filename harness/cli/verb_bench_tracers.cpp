@@ -1,3 +1,4 @@
+#include "harness/bench/own_tracers.h"
 #include "harness/bench/tracer_report.h"
 #include "harness/cli/verbs.h"
 #include "harness/run/environment.h"
@@ -6,6 +7,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <memory>
 
 namespace crossray {
 
@@ -61,13 +63,63 @@ double chooseThickness(const TracersVerbOptions& options, int height)
     return height >= 720 ? 0.2 : 0.05;
 }
 
-std::vector<TracerMethod> makeMethods(double thickness, const std::string& filter)
+// The device that tracers of the person's own run on; opened where there is one.
+class OwnDevice {
+  public:
+    OwnDevice(const GlobalOptions& global, const TracersVerbOptions& options)
+        : folders_(findFolders(global.shaders, global.cases, global.cache)), compiler_(folders_.cache / "spirv")
+    {
+        for (const std::string& method : options.methods)
+            methods_.push_back(makeOwnMethod(method));
+        if (methods_.empty()) return;
+        if (options.disturbance != "none") {
+            throw InputError(fmt::format(
+                "--disturb {}: --method traces what the scene shows; allowed beside it is none", options.disturbance));
+        }
+        backend_ = chooseBackends(std::vector<std::string>{options.backend}, listBackends()).names.front();
+        WorkerOptions workers;
+        workers.mesaCacheFolder = folders_.cache / "mesa";
+        pool_ = std::make_unique<WorkerPool>(workers);
+    }
+
+    // The rows of the person's own tracers.
+    std::vector<TracerMethod> makeTracers(double thickness, const std::function<Case(const YardstickScene&)>& caseOf)
+    {
+        std::vector<TracerMethod> made;
+        for (const BenchMethod& method : methods_)
+            made.push_back(makeDeviceTracer(method, caseOf, {backend_, *pool_, compiler_, folders_, thickness}));
+        return made;
+    }
+
+    std::vector<std::string> names() const
+    {
+        std::vector<std::string> names;
+        for (const BenchMethod& method : methods_)
+            names.push_back(method.name);
+        return names;
+    }
+
+  private:
+    Folders folders_;
+    ShaderCompiler compiler_;
+    std::unique_ptr<WorkerPool> pool_;
+    std::string backend_;
+    std::vector<BenchMethod> methods_;
+};
+
+std::vector<TracerMethod> makeMethods(double thickness, const std::string& filter, std::vector<TracerMethod> own)
 {
     std::vector<TracerMethod> methods;
     for (auto& group : {libraryTracers(thickness), referenceTracers(thickness)}) {
         for (const TracerMethod& method : group) {
             if (filter.empty() || method.name.find(filter) != std::string::npos) methods.push_back(method);
         }
+    }
+    for (TracerMethod& method : own) {
+        const auto hasName = [&](const TracerMethod& other) { return other.name == method.name; };
+        if (std::any_of(methods.begin(), methods.end(), hasName))
+            throw InputError(fmt::format("--method {}: the name is taken; names are unique", method.name));
+        methods.push_back(std::move(method));
     }
     if (methods.empty()) throw InputError(fmt::format("-k {}: no tracer's name has this in it", filter));
     return methods;
@@ -77,20 +129,19 @@ std::vector<TracerMethod> makeMethods(double thickness, const std::string& filte
 
 int benchTracers(const GlobalOptions& global, const TracersVerbOptions& options)
 {
-    if (!options.methods.empty()) {
-        throw InputError(
-            fmt::format("bench tracers: its rows are compiled ahead; a tracer of your own runs on a device: "
-                        "crossray bench yardstick/random_room --method {}",
-                        options.methods.front()));
-    }
     TracerReportHead head;
     std::vector<MeasuredTracer> rows;
+    OwnDevice device(global, options);
+    head.own = device.names();
     if (options.testCase.empty()) {
         head.options = readOptions(options);
         head.thickness = chooseThickness(options, head.options.height);
         const uint64_t scenes = head.options.lastSeed - head.options.firstSeed + 1;
         uint64_t done = 0;
-        rows = measureTracers(makeMethods(head.thickness, options.filter), head.options, [&](uint64_t seed) {
+        const auto caseOf = [&](const YardstickScene& scene) { return makeFamilyCase(head.options.family, scene); };
+        const std::vector<TracerMethod> methods =
+            makeMethods(head.thickness, options.filter, device.makeTracers(head.thickness, caseOf));
+        rows = measureTracers(methods, head.options, [&](uint64_t seed) {
             fmt::print(stderr, "crossray: {} of {}: seed {}\n", ++done, scenes, seed);
         });
         fmt::print("{}, {}, seeds {}, {}, every {}th pixel both ways, thickness {} m\n\n", options.family,
@@ -105,7 +156,9 @@ int benchTracers(const GlobalOptions& global, const TracersVerbOptions& options)
         const CaseData data(selected.cases.front());
         head.scene = selected.cases.front().name;
         head.thickness = chooseThickness(options, data.gbuffer().camera.height);
-        rows = measureTracers(makeMethods(head.thickness, options.filter), makeYardstickScene(data));
+        const auto caseOf = [&](const YardstickScene&) { return selected.cases.front(); };
+        rows = measureTracers(makeMethods(head.thickness, options.filter, device.makeTracers(head.thickness, caseOf)),
+                              makeYardstickScene(data));
         fmt::print("{}, thickness {} m\n\n", head.scene, head.thickness);
     }
     fmt::print("{}", formatTracerTable(rows));

@@ -139,7 +139,8 @@ struct TracersVerbOptions {
     int threads = 2;
     std::string json, csv;            // files; empty: none
     std::string charts;               // folder; empty: none
-    std::vector<std::string> methods; // a person's own: refused, and where they run is said
+    std::vector<std::string> methods; // a person's own tracers, NAME=FILE
+    std::string backend = "lavapipe"; // where they run
 };
 int benchTracers(const GlobalOptions& global, const TracersVerbOptions& options);
 
