@@ -205,8 +205,7 @@ void addReport(CLI::App& app, CommandLine& line)
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     report
-        .add_option("--bench", line.report.benches,
-                    "bench.json of `crossray bench`, or `bench tracers --json`, as charts")
+        .add_option("--bench", line.report.benches, "JSON of bench, bench tracers or sweep, as charts; may be repeated")
         ->type_name("FILE")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

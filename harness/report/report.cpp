@@ -9,6 +9,7 @@
 #include "harness/scene/exr.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -22,7 +23,7 @@ namespace {
 constexpr size_t kChunkBytes = 256 << 10; // of passed cases' details in one piece
 constexpr size_t kMaxLeftOutLines = 40;
 constexpr std::string_view kTraceSchema = "crossray-trace/1";
-constexpr std::string_view kBenchSchema = "crossray-bench/1", kTracersSchema = "crossray-tracers/1";
+constexpr std::string_view kBenchSchemas[] = {"crossray-bench/1", "crossray-tracers/1", "crossray-sweep/1"};
 
 // The planes of one case that a report may hold, the most telling first.
 struct PlaneSource {
@@ -122,12 +123,13 @@ class Report {
     {
         for (const ReportInput& bench : options_.benches) {
             const nlohmann::json json = nlohmann::json::parse(bench.json, nullptr, false);
-            const std::string schema = json.is_object() ? json.value("schema", "") : "";
-            if (schema != kBenchSchema && schema != kTracersSchema) {
-                throw InputError({bench.name, 0, 0},
-                                 fmt::format("its schema is \"{}\"; allowed are {}, which `crossray "
-                                             "bench -o DIR` writes, and {} of `bench tracers --json`",
-                                             schema, kBenchSchema, kTracersSchema));
+            const bool isNamed = json.is_object() && json.contains("schema") && json["schema"].is_string();
+            const std::string schema = isNamed ? json["schema"].get<std::string>() : "";
+            if (std::find(std::begin(kBenchSchemas), std::end(kBenchSchemas), schema) == std::end(kBenchSchemas)) {
+                throw InputError(
+                    {bench.name, 0, 0},
+                    fmt::format("its schema is \"{}\"; allowed are {}: what bench, bench tracers and sweep write",
+                                schema, fmt::join(kBenchSchemas, ", ")));
             }
             index_.benches.push_back(fmt::format("bench-{}", index_.benches.size()));
             add({index_.benches.back(), json.dump()});

@@ -35,7 +35,7 @@ struct ReportOptions {
     std::string runFolder = "out/last"; // as the commands on the page name it
     std::vector<ReportInput> traces;    // of `crossray trace --json`, shown with the case and pixel that they are of
     std::vector<ReportCubemap> cubemaps;
-    std::vector<ReportInput> benches; // bench.json of `crossray bench`, or what `bench tracers --json` wrote, as charts
+    std::vector<ReportInput> benches; // JSON of `bench`, `bench tracers` and `sweep`, as charts
 };
 
 struct ReportSummary {

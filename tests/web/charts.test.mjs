@@ -8,6 +8,7 @@ const published = (name) => JSON.parse(readFileSync(new URL(`../../reports/publi
 test('the front is what nothing beats', () => {
   const front = paretoFront([{ cost: 1, error: 5 }, { cost: 2, error: 5 }, { cost: 2, error: 1 }, { cost: 9, error: 1 }, { cost: 2, error: 1 }]);
   assert.deepEqual(front, [true, false, true, false, true]);
+  assert.deepEqual(paretoFront([{ cost: 1, error: 0, isBound: true }, { cost: 2, error: 1 }]), [false, true]);
 });
 
 test('the published benches are charts', () => {
@@ -19,4 +20,5 @@ test('the published benches are charts', () => {
   assert.ok(tracers.points.length > 3);
   assert.ok(tracers.points.every((point) => point.costs.Fetches >= 0 && point.errors.Missed >= -1e-9));
   assert.ok(tracers.reliability.length > 0);
+  assert.equal(tracers.points.filter((point) => point.isBound).length, 1);
 });

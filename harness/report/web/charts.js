@@ -3,6 +3,8 @@
 import { loadPiece } from 'crossray/data.js';
 import { h, redraw } from 'crossray/dom.js';
 import { formatShort } from 'crossray/numbers.js';
+import { kDashes, logAxis, svg } from 'crossray/svg.js';
+import { drawSweep, sweepOutputs } from 'crossray/sweeps.js';
 
 const kCosts = { Fetches: 'reads a ray', FetchesOf32: 'reads, largest of 32 rays', Iterations: 'steps a ray', IterationsOf32: 'steps, largest of 32 rays', ratio: 'time, as a ratio to the G-buffer pass' };
 
@@ -16,7 +18,7 @@ function fromBench(json) {
 
 function fromTracers(json) {
   const points = json.tracers.map(({ name, mean }) => ({
-    name, kind: name.split(',')[0], costs: { Fetches: mean.fetches, FetchesOf32: mean.fetchesOf32, Iterations: mean.iterations },
+    name, kind: name.split(',')[0], isBound: name.startsWith('oracle'), costs: { Fetches: mean.fetches, FetchesOf32: mean.fetchesOf32, Iterations: mean.iterations },
     errors: { Wrong: mean.wrong, Missed: 1 - mean.recall, False: mean.falseShare, HitPositionSS: mean.medianPixels },
   }));
   const reliability = json.tracers.filter((tracer) => tracer.reliability?.length > 0).map(({ name, reliability: dots }) => ({ name, dots }));
@@ -28,32 +30,10 @@ export function readCharts(json) {
   return json.schema === 'crossray-tracers/1' ? fromTracers(json) : fromBench(json);
 }
 
-/** Which points no other is at most as dear and at most as wrong as. */
+/** Which points no other is at most as dear and at most as wrong as. A bound, which no method is, counts for nothing. */
 export function paretoFront(points) {
-  return points.map((point) => !points.some((other) => other.cost <= point.cost && other.error <= point.error
+  return points.map((point) => !point.isBound && !points.some((other) => !other.isBound && other.cost <= point.cost && other.error <= point.error
     && (other.cost < point.cost || other.error < point.error)));
-}
-
-function logAxis(values, from, to) {
-  const positive = values.filter((value) => value > 0);
-  let [low, high] = positive.length > 0 ? [Math.min(...positive), Math.max(...positive)] : [1, 10];
-  [low, high] = [low / 1.4, high * 1.4];
-  const place = (value) => from + (to - from) * Math.log(value / low) / Math.log(high / low);
-  const ticks = [];
-  for (let decade = Math.floor(Math.log10(low)); decade <= Math.log10(high); ++decade) {
-    for (const step of high / low > 300 ? [1] : [1, 2, 5]) {
-      const value = step * 10 ** decade;
-      if (value >= low && value <= high) ticks.push(value);
-    }
-  }
-  return { place, ticks };
-}
-
-function svg(tag, attributes, ...children) {
-  const element = document.createElementNS('http://www.w3.org/2000/svg', tag);
-  for (const [name, value] of Object.entries(attributes)) if (value !== undefined) element.setAttribute(name, value);
-  element.append(...children.filter((child) => child !== null && child !== undefined));
-  return element;
 }
 
 const kShapes = ['M-4 0a4 4 0 1 0 8 0a4 4 0 1 0 -8 0', 'M-4 -4h8v8h-8z', 'M0 -5l5 9h-10z', 'M0 -5.5l5 5.5l-5 5.5l-5 -5.5z', 'M-5 -4h10l-5 9z'];
@@ -84,7 +64,7 @@ function drawScatter(chart, cost, error, hasCase) {
   const best = points.map((point, i) => [x.place(point.cost), placeY(point.error), front[i]]).filter((each) => each[2]).sort((a, b) => a[0] - b[0]);
   if (best.length > 1) parts.push(svg('path', { d: best.map(([px, py], i) => (i === 0 ? `M${px} ${py}` : `H${px}V${py}`)).join(''), class: 'front' }));
   points.forEach((point, i) => {
-    const shape = svg('path', { d: kShapes[kinds.indexOf(point.kind) % kShapes.length], class: front[i] ? 'point best' : 'point',
+    const shape = svg('path', { d: kShapes[kinds.indexOf(point.kind) % kShapes.length], class: point.isBound ? 'point bound' : front[i] ? 'point best' : 'point',
       transform: `translate(${x.place(point.cost).toFixed(1)} ${placeY(point.error).toFixed(1)})` },
     svg('title', {}, `${point.name}: ${error} ${formatShort(point.error)} at ${formatShort(point.cost)} ${kCosts[cost]}`));
     parts.push(hasCase ? svg('a', { href: `#case=${encodeURIComponent(chart.caseName)}`, 'aria-label': `${point.name}, to its case` }, shape) : shape);
@@ -104,12 +84,12 @@ function drawReliability(series) {
       svg('text', { x: x(tick), y: y(0) + 14, 'text-anchor': 'middle' }, String(tick)), svg('text', { x: left - 6, y: y(tick) + 4, 'text-anchor': 'end' }, String(tick)));
   }
   series.forEach(({ name, dots }, i) => {
-    parts.push(svg('path', { d: dots.map((dot, j) => `${j === 0 ? 'M' : 'L'}${x(dot.confidence)} ${y(dot.right)}`).join(''), class: `series s${i % 4}` }));
+    parts.push(svg('path', { d: dots.map((dot, j) => `${j === 0 ? 'M' : 'L'}${x(dot.confidence)} ${y(dot.right)}`).join(''), class: `series s${i % 4}`, 'stroke-width': 1.5, 'stroke-dasharray': kDashes[(i >> 2) % 4] }));
     for (const dot of dots) {
       parts.push(svg('circle', { cx: x(dot.confidence), cy: y(dot.right), r: Math.min(10, Math.max(2, 0.5 * dot.hits ** 0.25)), class: `dot s${i % 4}` },
         svg('title', {}, `${name}: says ${formatShort(dot.confidence)}, right ${formatShort(dot.right)}, ${dot.hits} hits`)));
     }
-    parts.push(svg('text', { x: x(0) + 8, y: top + 16 + 14 * i, class: `name s${i % 4}` }, name));
+    parts.push(svg('text', { x: x(0) + 8, y: top + 16 + 14 * i, class: `name s${i % 4}` }, `${i >= 4 ? '┄ ' : ''}${name}`));
   });
   parts.push(svg('text', { x: x(0.5), y: y(0) + 32, 'text-anchor': 'middle', class: 'label' }, 'confidence that was given'),
     svg('text', { transform: `translate(11 ${y(0.5)}) rotate(-90)`, 'text-anchor': 'middle', class: 'label' }, 'share of these hits that are right'));
@@ -119,7 +99,7 @@ function drawReliability(series) {
 function drawTable(chart, cost, error) {
   const rows = chart.points.filter((point) => Number.isFinite(point.errors[error])).sort((a, b) => a.errors[error] - b.errors[error]);
   const kinds = [...new Set(chart.points.map((point) => point.kind))];
-  const sign = (kind) => svg('svg', { viewBox: '-7 -7 14 14', class: 'sign', 'aria-hidden': 'true' }, svg('path', { d: kShapes[kinds.indexOf(kind) % kShapes.length], class: 'point best' }));
+  const sign = (kind) => svg('svg', { viewBox: '-7 -7 14 14', class: 'sign', 'aria-hidden': 'true' }, svg('path', { d: kShapes[kinds.indexOf(kind) % kShapes.length], class: 'point' }));
   return h('table', { class: 'figures' }, h('caption', { class: 'hidden' }, chart.title),
     h('thead', {}, h('tr', {}, ['method', error, kCosts[cost]].map((name) => h('th', { scope: 'col' }, name)))),
     h('tbody', {}, rows.map((point) => h('tr', {}, h('th', { scope: 'row' }, sign(point.kind), point.name),
@@ -134,8 +114,9 @@ function choice(label, value, choices, change) {
 /** Fills the page of charts. `has(name)`: the run has that case. */
 export async function drawCharts(box, { index, state, update, has }) {
   const files = await Promise.all(index.benches.map((bench) => loadPiece(bench.piece)));
-  const charts = files.flatMap(readCharts).filter((chart) => chart.points.length > 0);
-  const errors = [...new Set(charts.flatMap((chart) => Object.keys(chart.points[0].errors)))];
+  const sweeps = files.filter((file) => file.schema === 'crossray-sweep/1');
+  const charts = files.filter((file) => !sweeps.includes(file)).flatMap(readCharts).filter((chart) => chart.points.length > 0);
+  const errors = [...new Set([...charts.flatMap((chart) => Object.keys(chart.points[0].errors)), ...sweeps.flatMap(sweepOutputs)])];
   const costs = [...new Set(charts.flatMap((chart) => Object.keys(chart.points[0].costs)))].filter((name) => name in kCosts);
   const error = errors.includes(state.error) ? state.error : '';
   const cost = costs.includes(state.cost) ? state.cost : costs[0];
@@ -148,8 +129,9 @@ export async function drawCharts(box, { index, state, update, has }) {
       h('div', { class: 'chart-row' }, drawScatter(chart, cost, shown, hasCase), h('div', { class: 'chart-table', tabindex: '0', role: 'region', 'aria-label': `Figures of ${chart.title}` }, drawTable(chart, cost, shown)),
         chart.reliability?.length > 0 && drawReliability(chart.reliability)));
   });
-  redraw(box, h('h2', {}, 'Error against cost'),
+  const ofSweeps = sweeps.map((sweep) => drawSweep(sweep, sweepOutputs(sweep).includes(error) ? error : '', has(sweep.case)));
+  redraw(box, h('h2', {}, charts.length > 0 ? 'Error against cost' : 'Sweeps'),
     h('div', { class: 'chart-controls' }, choice('error ', error, [['', 'the first of each'], ...errors.map((name) => [name, name])], (value) => update({ error: value })),
-      choice('cost ', cost, costs.map((name) => [name, kCosts[name]]), (value) => update({ cost: value })),
-      h('button', { type: 'button', class: 'small', onclick: () => update({ page: '' }) }, 'back to the case')), ...sections);
+      costs.length > 0 && choice('cost ', cost, costs.map((name) => [name, kCosts[name]]), (value) => update({ cost: value })),
+      h('button', { type: 'button', class: 'small', onclick: () => update({ page: '' }) }, 'back to the case')), sections, ofSweeps);
 }

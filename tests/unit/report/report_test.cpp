@@ -196,7 +196,7 @@ TEST(Report, benchesAreOfTheirSchemaOrRefused)
     const auto files = fixture.make(options);
     EXPECT_EQ(readPiece(files.at("index.html"), "index")["benches"][0]["piece"], "bench-0");
     EXPECT_EQ(readScript(files.at("data/bench-0.js"))["scenes"][0], "</script>");
-    for (const char* text : {"", "[]", "{}", R"({"schema": "crossray-bench/2"})"}) {
+    for (const char* text : {"", "[]", "{}", R"({"schema": "crossray-bench/2"})", R"({"schema": 1})"}) {
         options.benches = {{"bad.json", text}};
         EXPECT_THROW(fixture.make(options), InputError) << text;
     }
