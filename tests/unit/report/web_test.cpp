@@ -21,9 +21,10 @@ std::string readText(const fs::path& file)
     return content.str();
 }
 
+// A stub that only says how to install the program counts as none.
 bool isInstalled(const std::string& program)
 {
-    return std::system(fmt::format("command -v {} >/dev/null 2>&1", program).c_str()) == 0;
+    return std::system(fmt::format("{} --version >/dev/null 2>&1", program).c_str()) == 0;
 }
 
 // What a person does, in the page itself: its findings are left in the document for --dump-dom.
@@ -178,7 +179,7 @@ class BrowserTest : public testing::Test {
 TEST(WebLogic, holdsInNode)
 {
     if (!isInstalled("node")) GTEST_SKIP() << "node is not installed";
-    const std::string command = "node --test " CROSSRAY_SOURCE_DIR "/tests/web/ 2>&1";
+    const std::string command = "node --test " CROSSRAY_SOURCE_DIR "/tests/web/*.test.mjs 2>&1";
     FILE* const pipe = popen(command.c_str(), "r");
     ASSERT_NE(pipe, nullptr);
     std::string output(1 << 16, '\0');
