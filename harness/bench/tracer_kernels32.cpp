@@ -55,13 +55,13 @@ vec3 fetchNormalWS(ivec2 pixel)
     const float* normal = &loaded.normalsWS.at(3 * pixelIndex(pixel));
     return vec3(normal[0], normal[1], normal[2]);
 }
-vec4 fetchFinerSurface(ivec2 cell)
+vec4 fetchFinerSurface(ivec2 cell, int level)
 {
-    return surfaces[finerLevel].at(cell);
+    return surfaces[static_cast<size_t>(level)].at(cell);
 }
-ivec2 finerSurfaceSize()
+ivec2 finerSurfaceSize(int level)
 {
-    return surfaces[finerLevel].size;
+    return surfaces[static_cast<size_t>(level)].size;
 }
 
 vec2 fetchDepthPyramid(ivec2 cell, int level)

@@ -19,7 +19,8 @@ namespace crossray {
 
 namespace {
 
-constexpr uint32_t kGroupSize = 8; // local size of the entry shaders, both ways
+constexpr uint32_t kGroupSize = 8;          // local size of the entry shaders, both ways
+constexpr size_t kSurfaceLevelsPerPass = 4; // docs/tracer.md has what other numbers cost
 
 BufferDesc uniformBuffer(std::vector<std::byte> bytes)
 {
@@ -114,13 +115,14 @@ class JobBuilder {
         job_.programs.push_back(
             compileEntry(compiler, shaderRoot, "entry/surface_pyramid.comp",
                          {{"kOrthographic", isOrthographic() ? 1 : 0}, {"kReversedDepth", isReversed() ? 1 : 0}}));
-        for (size_t level = 0; level < levels_.size(); ++level) {
+        for (size_t first = 0; first < levels_.size(); first += kSurfaceLevelsPerPass) {
+            const size_t last = std::min(first + kSurfaceLevelsPerPass, levels_.size()) - 1;
             const Binding params = addBuffer(
-                kParamsBinding, uniformBuffer(makeSurfaceParams(data_.testCase(), levels_, level, precision_)));
+                kParamsBinding, uniformBuffer(makeSurfaceParams(data_.testCase(), levels_, first, last, precision_)));
             job_.dispatches.push_back({job_.programs.size() - 1,
                                        {params, depth, normal, *pyramid_},
-                                       groupsFor(levels_[level].width),
-                                       groupsFor(levels_[level].height),
+                                       groupsFor(levels_[last].width),
+                                       groupsFor(levels_[last].height),
                                        1});
         }
     }

@@ -119,21 +119,20 @@ Params fillPyramidParams(const Case& testCase, const std::vector<PyramidLevel>& 
 }
 
 template <class Params>
-Params fillSurfaceParams(const Case& testCase, const std::vector<PyramidLevel>& levels, size_t target)
+Params fillSurfaceParams(const Case& testCase, const std::vector<PyramidLevel>& levels, size_t first, size_t last)
 {
     using Vec4 = decltype(Params::depthTerms);
     using Mat4 = decltype(Params::viewFromWorld);
     const Camera& camera = testCase.camera;
     const glm::dvec2 slope = computeSlope(camera);
-    const PyramidLevel& source = levels[target == 0 ? 0 : target - 1];
     Params params{};
     params.viewFromWorld = Mat4(computeViewFromWorld(camera));
     params.imageSizeAndSlope = Vec4(glm::dvec4(camera.width, camera.height, slope.x, slope.y));
     params.depthTerms = Vec4(computeDepthTerms(camera));
     params.patches = Vec4(glm::dvec4(0.0, testCase.projection.patches.depthError, 0.0, 0.0));
-    params.sourceLevel = {source.firstCell, source.width, source.height, static_cast<int>(target) - 1};
-    params.targetLevel = {levels[target].firstCell, levels[target].width, levels[target].height,
-                          static_cast<int>(target)};
+    params.range = {static_cast<int>(first), static_cast<int>(last), 0, 0};
+    for (size_t level = 0; level < levels.size(); ++level)
+        params.levels[level] = {levels[level].firstCell, levels[level].width, levels[level].height, 0};
     return params;
 }
 
@@ -166,12 +165,12 @@ std::vector<std::byte> makePyramidParams(const Case& testCase, const std::vector
                : bytesOf(fillPyramidParams<layout64::PyramidParams>(testCase, levels, target));
 }
 
-std::vector<std::byte> makeSurfaceParams(const Case& testCase, const std::vector<PyramidLevel>& levels, size_t target,
-                                         Precision precision)
+std::vector<std::byte> makeSurfaceParams(const Case& testCase, const std::vector<PyramidLevel>& levels, size_t first,
+                                         size_t last, Precision precision)
 {
     return precision == Precision::kFloat
-               ? bytesOf(fillSurfaceParams<layout32::SurfaceParams>(testCase, levels, target))
-               : bytesOf(fillSurfaceParams<layout64::SurfaceParams>(testCase, levels, target));
+               ? bytesOf(fillSurfaceParams<layout32::SurfaceParams>(testCase, levels, first, last))
+               : bytesOf(fillSurfaceParams<layout64::SurfaceParams>(testCase, levels, first, last));
 }
 
 } // namespace crossray

@@ -30,8 +30,8 @@ std::vector<std::byte> makePassParams(const Case& testCase, const std::vector<Py
 std::vector<std::byte> makePyramidParams(const Case& testCase, const std::vector<PyramidLevel>& levels, size_t target,
                                          Precision precision);
 
-// The block SurfaceParams, likewise.
-std::vector<std::byte> makeSurfaceParams(const Case& testCase, const std::vector<PyramidLevel>& levels, size_t target,
-                                         Precision precision);
+// The block SurfaceParams for the pass that builds levels `first` to `last`.
+std::vector<std::byte> makeSurfaceParams(const Case& testCase, const std::vector<PyramidLevel>& levels, size_t first,
+                                         size_t last, Precision precision);
 
 } // namespace crossray

@@ -1,5 +1,5 @@
 #version 450
-// One level of the pyramid of planes, a cell an invocation.
+// Some levels of the pyramid of planes, a cell of the coarsest an invocation.
 #include "bindings/surface_pyramid.glsl"
 #include "pass/surface_pyramid.glsl"
 
@@ -7,5 +7,5 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 void main()
 {
-    buildSurfaceCell(ivec2(gl_GlobalInvocationID.xy));
+    buildSurfaceCells(ivec2(gl_GlobalInvocationID.xy));
 }

@@ -13,7 +13,6 @@ struct DepthImage {
 
 static DepthImage gImage;
 static std::vector<SurfaceLevel> gSurfaces;
-static size_t gFinerSurface = 0;
 static int gSurfaceReads = 0;
 static int gBadSurfaceReads = 0; // outside a level
 static std::vector<PatchStep> gPatchSteps;
@@ -52,13 +51,14 @@ vec3 fetchNormalWS(ivec2 pixel)
 {
     return gImage.normalsWS.at(cellIndex(pixel, gImage.size));
 }
-vec4 fetchFinerSurface(ivec2 cell)
+vec4 fetchFinerSurface(ivec2 cell, int level)
 {
-    return gSurfaces[gFinerSurface].cells.at(cellIndex(cell, gSurfaces[gFinerSurface].size));
+    const SurfaceLevel& finer = gSurfaces.at(static_cast<size_t>(level));
+    return finer.cells.at(cellIndex(cell, finer.size));
 }
-ivec2 finerSurfaceSize()
+ivec2 finerSurfaceSize(int level)
 {
-    return gSurfaces[gFinerSurface].size;
+    return gSurfaces.at(static_cast<size_t>(level)).size;
 }
 
 inline void buildSurfacePyramid(const View& view, Real depthError = 0)
@@ -72,7 +72,6 @@ inline void buildSurfacePyramid(const View& view, Real depthError = 0)
     }
     const int levels = computeDepthPyramidLevelCount(size);
     for (int level = 1; level < levels; ++level) {
-        gFinerSurface = static_cast<size_t>(level - 1);
         SurfaceLevel next{computeDepthPyramidSize(size, level), {}};
         for (int y = 0; y < next.size.y; ++y) {
             for (int x = 0; x < next.size.x; ++x)

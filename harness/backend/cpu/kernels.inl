@@ -138,7 +138,7 @@ constexpr CpuKernel<Real> kKernels[] = {
          bound = bindings;
          readUniform(surfaceParams, kParamsBinding);
      },
-     [](int x, int y) { buildSurfaceCell(ivec2(x, y)); }},
+     [](int x, int y) { buildSurfaceCells(ivec2(x, y)); }},
     {"entry/color_pyramid.comp", 8, 8,
      [](const CpuBindings<Real>& bindings) {
          bound = bindings;

@@ -6,8 +6,8 @@
 // pyramid needs none):
 //     float fetchDeviceDepth(ivec2 pixel)     as stored; the pixel is in the image
 //     vec3 fetchNormalWS(ivec2 pixel)         of any length; zero or NaN where there is none
-//     vec4 fetchFinerSurface(ivec2 cell)      packed cell of the next finer level
-//     ivec2 finerSurfaceSize()                cells of that level
+//     vec4 fetchFinerSurface(ivec2 cell, int level)   packed cell of a finer level
+//     ivec2 finerSurfaceSize(int level)       cells of that level
 // Source: own. On a plane the affine depth (project/screen_ray.glsl) is affine over the screen: it is a number and a
 // gradient. Sizes and the covering of odd sizes are those of project/depth_pyramid.glsl.
 #ifndef CROSSRAY_PROJECT_SURFACE_PYRAMID_GLSL
@@ -125,8 +125,8 @@ float chooseSlope(float fromNormal, bool hasNormal, NeighborRise before, Neighbo
 #ifdef CROSSRAY_BUILD_SURFACE_PYRAMID
 float fetchDeviceDepth(ivec2 pixel);
 vec3 fetchNormalWS(ivec2 pixel);
-vec4 fetchFinerSurface(ivec2 cell);
-ivec2 finerSurfaceSize();
+vec4 fetchFinerSurface(ivec2 cell, int level);
+ivec2 finerSurfaceSize(int level);
 
 NeighborRise computeNeighborRise(View view, ivec2 neighbor, float affineDepth)
 {
@@ -166,52 +166,133 @@ struct FinerCells {
     ivec2 size;
     int level;
     ivec2 pixels;
+    vec2 centerSS; // of the cell over them
 };
 
-// The tightest cell that has this gradient: the range of what the finer cells reach, seen from the plane.
-SurfaceCell coverFinerCells(FinerCells finer, vec2 centerSS, vec2 gradient)
+// One of them: its surface, the way from its centre to that of the cell over it, and its own size, pixels.
+struct FinerSurface {
+    SurfaceCell surface;
+    vec2 toCenter;
+    vec2 extent;
+};
+
+// Affine depths at a cell's centre between which a plane of some gradient must lie to touch what is below.
+struct SurfaceRange {
+    float low;
+    float high;
+};
+
+FinerSurface loadFinerSurface(FinerCells finer, ivec2 cell)
 {
-    float low = 1e30;
-    float high = -1e30;
+    CellRect rect = computeCellRect(cell, finer.level, finer.size, finer.pixels);
+    return FinerSurface(unpackSurfaceCell(fetchFinerSurface(cell, finer.level)),
+                        finer.centerSS - computeRectCenter(rect), vec2(rect.end - rect.begin));
+}
+
+SurfaceRange computeRange(FinerSurface finer, vec2 gradient)
+{
+    float middle = finer.surface.affineDepth + dot(gradient, finer.toCenter);
+    vec2 tilt = abs(finer.surface.gradient - gradient);
+    float reach = max(finer.surface.slack, 0.0) + 0.5 * dot(tilt, finer.extent);
+    return SurfaceRange(middle - reach, middle + reach);
+}
+
+SurfaceRange joinRanges(SurfaceRange a, SurfaceRange b)
+{
+    return SurfaceRange(min(a.low, b.low), max(a.high, b.high));
+}
+
+SurfaceCell makeCover(FinerCells finer, vec2 gradient, SurfaceRange range)
+{
+    float size = float(finer.cells.end.x - finer.cells.begin.x + finer.cells.end.y - finer.cells.begin.y);
+    float terms =
+        abs(range.low) + abs(range.high) + (abs(gradient.x) + abs(gradient.y)) * size * float(1 << finer.level);
+    return SurfaceCell(0.5 * (range.low + range.high), gradient,
+                       0.5 * (range.high - range.low) + kSurfaceRounding * terms);
+}
+
+// The tightest cell that has this gradient: the range of what the finer cells reach, seen from the plane.
+SurfaceCell coverFinerCells(FinerCells finer, vec2 gradient)
+{
+    SurfaceRange range = SurfaceRange(1e30, -1e30);
+    for (int y = finer.cells.begin.y; y < finer.cells.end.y; ++y) {
+        for (int x = finer.cells.begin.x; x < finer.cells.end.x; ++x)
+            range = joinRanges(range, computeRange(loadFinerSurface(finer, ivec2(x, y)), gradient));
+    }
+    return makeCover(finer, gradient, range);
+}
+
+SurfaceCell chooseTighter(SurfaceCell best, SurfaceCell other)
+{
+    bool isTighter = other.slack < best.slack;
+    return SurfaceCell(isTighter ? other.affineDepth : best.affineDepth, isTighter ? other.gradient : best.gradient,
+                       isTighter ? other.slack : best.slack);
+}
+
+// At the borders of odd sizes: 1 to 9 cells.
+SurfaceCell reduceAnyCells(FinerCells finer)
+{
+    SurfaceCell best = coverFinerCells(finer, vec2(0.0));
+    vec2 sum = vec2(0.0);
     for (int y = finer.cells.begin.y; y < finer.cells.end.y; ++y) {
         for (int x = finer.cells.begin.x; x < finer.cells.end.x; ++x) {
-            SurfaceCell cell = unpackSurfaceCell(fetchFinerSurface(ivec2(x, y)));
-            CellRect rect = computeCellRect(ivec2(x, y), finer.level, finer.size, finer.pixels);
-            float middle = cell.affineDepth + dot(gradient, centerSS - computeRectCenter(rect));
-            vec2 tilt = abs(cell.gradient - gradient);
-            float reach = max(cell.slack, 0.0) + 0.5 * dot(tilt, vec2(rect.end - rect.begin));
-            low = min(low, middle - reach);
-            high = max(high, middle + reach);
+            vec2 gradient = unpackSurfaceCell(fetchFinerSurface(ivec2(x, y), finer.level)).gradient;
+            best = chooseTighter(best, coverFinerCells(finer, gradient));
+            sum = sum + gradient;
         }
     }
-    float size = float(finer.cells.end.x - finer.cells.begin.x + finer.cells.end.y - finer.cells.begin.y);
-    float terms = abs(low) + abs(high) + (abs(gradient.x) + abs(gradient.y)) * size * float(1 << finer.level);
-    return SurfaceCell(0.5 * (low + high), gradient, 0.5 * (high - low) + kSurfaceRounding * terms);
+    ivec2 count = finer.cells.end - finer.cells.begin;
+    return chooseTighter(best, coverFinerCells(finer, sum / float(count.x * count.y)));
+}
+
+// Four cells, nearly everywhere; each is read once.
+struct FourSurfaces {
+    FinerSurface a;
+    FinerSurface b;
+    FinerSurface c;
+    FinerSurface d;
+};
+
+SurfaceCell coverFourCells(FinerCells finer, FourSurfaces four, vec2 gradient)
+{
+    SurfaceRange above = joinRanges(computeRange(four.a, gradient), computeRange(four.b, gradient));
+    SurfaceRange below = joinRanges(computeRange(four.c, gradient), computeRange(four.d, gradient));
+    return makeCover(finer, gradient, joinRanges(above, below));
+}
+
+SurfaceCell reduceFourCells(FinerCells finer)
+{
+    ivec2 begin = finer.cells.begin;
+    FourSurfaces four =
+        FourSurfaces(loadFinerSurface(finer, begin), loadFinerSurface(finer, begin + ivec2(1, 0)),
+                     loadFinerSurface(finer, begin + ivec2(0, 1)), loadFinerSurface(finer, begin + ivec2(1, 1)));
+    SurfaceCell best = coverFourCells(finer, four, vec2(0.0));
+    best = chooseTighter(best, coverFourCells(finer, four, four.a.surface.gradient));
+    best = chooseTighter(best, coverFourCells(finer, four, four.b.surface.gradient));
+    best = chooseTighter(best, coverFourCells(finer, four, four.c.surface.gradient));
+    best = chooseTighter(best, coverFourCells(finer, four, four.d.surface.gradient));
+    vec2 sum = four.a.surface.gradient + four.b.surface.gradient + four.c.surface.gradient + four.d.surface.gradient;
+    return chooseTighter(best, coverFourCells(finer, four, sum / 4.0));
 }
 
 // A cell of a level above 0, packed, from the 1 to 9 cells that it covers in the next finer level, whose number is
 // finerLevel. It takes the gradient that strays least: one of theirs, their mean, or none.
 vec4 reduceSurfaceCell(ivec2 cell, int finerLevel, ivec2 imageSize)
 {
-    ivec2 finerSize = max(finerSurfaceSize(), ivec2(1));
+    ivec2 finerSize = max(finerSurfaceSize(finerLevel), ivec2(1));
     ivec2 size = max(ivec2(finerSize.x / 2, finerSize.y / 2), ivec2(1));
     ivec2 begin = ivec2(cell.x * 2, cell.y * 2);
     ivec2 end =
         ivec2(cell.x == size.x - 1 ? finerSize.x : begin.x + 2, cell.y == size.y - 1 ? finerSize.y : begin.y + 2);
-    FinerCells finer = FinerCells(CellRect(begin, end), finerSize, finerLevel, imageSize);
     vec2 centerSS = computeRectCenter(computeCellRect(cell, finerLevel + 1, size, imageSize));
-    SurfaceCell best = coverFinerCells(finer, centerSS, vec2(0.0));
-    vec2 sum = vec2(0.0);
-    for (int y = begin.y; y < end.y; ++y) {
-        for (int x = begin.x; x < end.x; ++x) {
-            vec2 gradient = unpackSurfaceCell(fetchFinerSurface(ivec2(x, y))).gradient;
-            SurfaceCell other = coverFinerCells(finer, centerSS, gradient);
-            if (other.slack < best.slack) best = other;
-            sum = sum + gradient;
-        }
+    FinerCells finer = FinerCells(CellRect(begin, end), finerSize, finerLevel, imageSize, centerSS);
+    bool isFour = end.x - begin.x == 2 && end.y - begin.y == 2;
+    SurfaceCell best;
+    if (isFour) {
+        best = reduceFourCells(finer);
+    } else {
+        best = reduceAnyCells(finer);
     }
-    SurfaceCell mean = coverFinerCells(finer, centerSS, sum / float((end.x - begin.x) * (end.y - begin.y)));
-    if (mean.slack < best.slack) best = mean;
     return packSurfaceCell(best);
 }
 #endif

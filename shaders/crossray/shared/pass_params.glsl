@@ -1,5 +1,5 @@
-// Parameters of the harness's passes, as C++ and GLSL both see them. Only vec4, ivec4 and mat4 members, so that std140 and the
-// C++ struct have the same layout without padding.
+// Parameters of the harness's passes, as C++ and GLSL both see them. Only vec4, ivec4 and mat4 members, so that std140
+// and the C++ struct have the same layout without padding.
 #ifndef CROSSRAY_SHARED_PASS_PARAMS_GLSL
 #define CROSSRAY_SHARED_PASS_PARAMS_GLSL
 
@@ -9,7 +9,7 @@ struct PassParams {
     mat4 viewFromWorld;
     mat4 worldFromView;
     mat4 clipFromView;
-    mat4 worldFromProxy;    // rotation only
+    mat4 worldFromProxy; // rotation only
     mat4 previousViewFromWorld;
     vec4 imageSizeAndSlope; // xy: pixels; zw: View.slope
     vec4 depthTerms;        // View.depthA, View.depthB, near and far distance in metres
@@ -35,14 +35,14 @@ struct PyramidParams {
     ivec4 imageSize;   // width, height, unused, unused
 };
 
-// Parameters of one reduction of the pyramid of planes.
+// Parameters of one pass over the pyramid of planes.
 struct SurfaceParams {
     mat4 viewFromWorld;
     vec4 imageSizeAndSlope; // as in PassParams
     vec4 depthTerms;
     vec4 patches;
-    ivec4 sourceLevel; // as in PyramidParams
-    ivec4 targetLevel;
+    ivec4 range;                               // first and last level that it builds, unused, unused
+    ivec4 levels[CROSSRAY_MAX_PYRAMID_LEVELS]; // as PassParams.pyramidLevels
 };
 
 #endif

@@ -40,6 +40,16 @@ TEST(Pass, hizBuildsEachLevelDownToOneCell)
     EXPECT_EQ(job.dispatches.size(), 7u);
 }
 
+TEST(Pass, planesBuildFourLevelsAtOnce)
+{
+    Case testCase = makeFloorCase({"HitSuccess"});
+    testCase.projection.model = ProjectionModel::kPatches;
+    const Job job = makeJob(testCase, Precision::kFloat);
+    // 37x23, 18x11, 9x5, 4x2; 2x1, 1x1; the trace
+    EXPECT_EQ(job.dispatches.size(), 3u);
+    EXPECT_EQ(job.dispatches[0].groupsX, 1u); // 4x2 cells with all below them
+}
+
 TEST(Pass, aVariantCarriesOnlyWhatItUses)
 {
     const Job ray = makeJob(makeFloorCase({"RayDirWS"}), Precision::kFloat);
