@@ -25,9 +25,9 @@ void setOutputs(Case& testCase, bool counts)
     testCase.expectations.clear();
     testCase.outputs.clear();
     std::vector<const char*> names{"RayDirWS", "HitDepth", "HitSuccess", "IterationCount", "HitPositionSS"};
-    if (counts) names.push_back("FetchCount");
     if (testCase.effect == TraceEffect::kRefraction) names.insert(names.end(), {"PathLength", "RayOriginWS"});
     if (const BenchFamily* family = findBenchFamily(testCase.benchFamily)) names = family->outputs;
+    if (counts) names.push_back("FetchCount");
     for (const OutputInfo& output : allOutputs()) {
         if (std::find(names.begin(), names.end(), output.name) != names.end()) testCase.outputs.push_back(output);
     }
@@ -310,6 +310,8 @@ BenchScene benchCase(const Case& testCase, const BenchOptions& options, WorkerPo
     scene.rays = static_cast<double>(std::count_if(truth.pixels.begin(), truth.pixels.end(), [](const TruthPixel& p) {
         return p.screen != ScreenKnowledge::kNoRay;
     }));
+    std::shared_ptr<const void> prepared;
+    if (family != nullptr && family->prepare != nullptr) prepared = family->prepare(data);
     YardstickScene rays;
     if (isReflection && family == nullptr) {
         rays = makeYardstickScene(data);
@@ -318,17 +320,22 @@ BenchScene benchCase(const Case& testCase, const BenchOptions& options, WorkerPo
     for (size_t i = 0; i < methods.size(); ++i) {
         const Runner& runner = runners[i + 1];
         BenchPoint point{methods[i].name, methods[i].kind, {}, {}, summarize(runner.milliseconds, scene.baselineMs)};
-        if (family != nullptr) {
-            const std::vector<Plane> planes = readPlanes(runner.testCase, runner.last);
-            family->judge({data, runner.testCase, planes, runner.job, methods[i]}, point);
-        } else if (isReflection) {
-            Runner counted = makeRunner(testCase, methods[i], compiler, folders, precision, true);
-            runOnce(counted, options.backend, pool, compiler, folders);
-            const Answers answers{readPlanes(counted.testCase, counted.last), counted.scale};
+        const bool judgesHits = family != nullptr ? family->judgesHits : isReflection;
+        std::optional<Runner> counted;
+        if (judgesHits) {
+            counted = makeRunner(testCase, methods[i], compiler, folders, precision, true);
+            runOnce(*counted, options.backend, pool, compiler, folders);
+        }
+        const Runner& judged = counted ? *counted : runner;
+        const Answers answers{readPlanes(judged.testCase, judged.last), judged.scale};
+        if (judgesHits) {
             judgeReflections(truth, answers, point);
             countCost(truth, answers, point);
-        } else {
-            judgeRefractions(truth, {readPlanes(runner.testCase, runner.last), runner.scale}, point);
+        }
+        if (family != nullptr) {
+            family->judge({data, runner.testCase, answers.planes, runner.job, methods[i], prepared.get()}, point);
+        } else if (!isReflection) {
+            judgeRefractions(truth, answers, point);
             const size_t instructions = countSpirvInstructions(runner.job.programs.back().spirv);
             point.counters["Instructions"] = static_cast<double>(instructions);
         }

@@ -1,15 +1,10 @@
 #include "harness/bench/chart.h"
 
-#include "harness/base/error.h"
-
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 
 namespace crossray {
 
@@ -17,8 +12,9 @@ namespace {
 
 constexpr double kWidth = 880, kHeight = 560;
 constexpr double kLeft = 78, kRight = 24, kTop = 48, kBottom = 62;
-constexpr double kZeroBand = 26; // pixels below the axis, for errors of 0
-constexpr double kTextHeight = 13, kTextWidth = 6.1;
+constexpr double kZeroBand = 26;    // pixels below the axis, for errors of 0
+constexpr double kNameMargin = 170; // for the names of curves
+constexpr double kTextHeight = 13, kTextWidth = 6.5;
 constexpr const char* kFrontColor = "#1f5fa8";
 constexpr const char* kPaleColor = "#b9bec6";
 constexpr const char* kOwnColor = "#c2571a";
@@ -256,6 +252,39 @@ std::string drawPoints(const std::vector<Placed>& placed, const std::vector<Plac
     return svg + names;
 }
 
+// Each name's points as one line with dots; the names stand in the margin, in the order of the lines' ends.
+std::string drawCurves(const std::vector<Placed>& placed)
+{
+    std::vector<std::vector<Placed>> curves;
+    for (const Placed& p : placed) {
+        const auto same = [&](const std::vector<Placed>& curve) { return curve[0].point->name == p.point->name; };
+        const auto found = std::find_if(curves.begin(), curves.end(), same);
+        found == curves.end() ? curves.push_back({p}) : found->push_back(p);
+    }
+    for (std::vector<Placed>& curve : curves)
+        std::sort(curve.begin(), curve.end(), [](const Placed& a, const Placed& b) { return a.x < b.x; });
+    std::sort(curves.begin(), curves.end(), [](const auto& a, const auto& b) { return a.back().y < b.back().y; });
+    std::string svg;
+    double below = kTop;
+    for (size_t i = 0; i < curves.size(); ++i) {
+        const char* const color = kSeriesColors[i % kSeriesColors.size()];
+        std::string path;
+        for (const Placed& p : curves[i]) {
+            path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", p.x, p.y);
+            svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3\" fill=\"{}\"/>\n", p.x, p.y, color);
+        }
+        const Placed& last = curves[i].back();
+        const double row = std::max(last.y, below + kTextHeight);
+        below = row;
+        svg += fmt::format("<path d=\"{0}\" stroke=\"{1}\" stroke-width=\"1.4\"{2}/><path d=\"M{3:.1f} {4:.1f}L{5:.1f} "
+                           "{6:.1f}\" stroke=\"{1}\" stroke-width=\"0.6\"/><text x=\"{7:.1f}\" y=\"{8:.1f}\" "
+                           "font-size=\"11\" fill=\"{1}\">{9}</text>\n",
+                           path, color, i < kSeriesColors.size() ? "" : " stroke-dasharray=\"5 3\"", last.x, last.y,
+                           last.x + 16, row, last.x + 19, row + 4, escape(last.point->name));
+    }
+    return svg;
+}
+
 } // namespace
 
 std::vector<bool> findParetoFront(std::span<const ChartPoint> points)
@@ -272,9 +301,14 @@ std::vector<bool> findParetoFront(std::span<const ChartPoint> points)
     return front;
 }
 
+std::vector<bool> findChartFront(const Chart& chart)
+{
+    return chart.isOfCurves ? std::vector<bool>(chart.points.size(), false) : findParetoFront(chart.points);
+}
+
 std::string formatChartSvg(const Chart& chart)
 {
-    const std::vector<bool> front = findParetoFront(chart.points);
+    const std::vector<bool> front = findChartFront(chart);
     std::vector<double> costs, errors;
     bool hasZeros = false;
     for (const ChartPoint& point : chart.points) {
@@ -283,7 +317,7 @@ std::string formatChartSvg(const Chart& chart)
         if (point.error > 0) errors.push_back(point.error);
         hasZeros = hasZeros || point.error == 0;
     }
-    const LogAxis x = makeAxis(costs, kLeft, kWidth - kRight);
+    const LogAxis x = makeAxis(costs, kLeft, kWidth - (chart.isOfCurves ? kNameMargin : kRight));
     const LogAxis y = makeAxis(errors, kHeight - kBottom - (hasZeros ? kZeroBand : 0), kTop);
     std::vector<Placed> placed;
     for (size_t i = 0; i < chart.points.size(); ++i) {
@@ -293,60 +327,8 @@ std::string formatChartSvg(const Chart& chart)
         placed.push_back({&point, x.place(point.cost), height, front[i]});
     }
     const std::vector<Placed> sorted = sortFront(placed);
-    return openSvg(chart.title, kWidth, kHeight) + drawAxes(chart, x, y, hasZeros) + drawFront(sorted) +
-           drawPoints(placed, sorted) + "</svg>\n";
-}
-
-std::string formatChartsCsv(std::span<const Chart> charts)
-{
-    std::string text = "chart,method,cost,error,front,bound\n";
-    for (const Chart& chart : charts) {
-        const std::vector<bool> front = findParetoFront(chart.points);
-        for (size_t i = 0; i < chart.points.size(); ++i) {
-            const ChartPoint& point = chart.points[i];
-            text += fmt::format("{},\"{}\",{},{},{:d},{:d}\n", chart.id, point.name, point.cost, point.error,
-                                static_cast<bool>(front[i]), point.isBound);
-        }
-    }
-    return text;
-}
-
-std::string formatChartsJson(std::span<const Chart> charts)
-{
-    nlohmann::ordered_json all = nlohmann::ordered_json::array();
-    for (const Chart& chart : charts) {
-        const std::vector<bool> front = findParetoFront(chart.points);
-        nlohmann::ordered_json points = nlohmann::ordered_json::array();
-        for (size_t i = 0; i < chart.points.size(); ++i) {
-            const ChartPoint& point = chart.points[i];
-            points.push_back({{"name", point.name},
-                              {"cost", point.cost},
-                              {"error", point.error},
-                              {"front", static_cast<bool>(front[i])},
-                              {"bound", point.isBound}});
-        }
-        all.push_back({{"id", chart.id},
-                       {"title", chart.title},
-                       {"cost", chart.costLabel},
-                       {"error", chart.errorLabel},
-                       {"points", points}});
-    }
-    return nlohmann::ordered_json{{"schema", "crossray-charts/1"}, {"charts", all}}.dump(2) + "\n";
-}
-
-void writeTextFile(const std::string& path, const std::string& text)
-{
-    std::ofstream file(path);
-    file << text;
-    if (!file.flush()) throw InputError(fmt::format("{}: cannot be written", path));
-}
-
-void writeCharts(const std::string& folder, std::span<const Chart> charts)
-{
-    std::error_code ignored;
-    std::filesystem::create_directories(folder, ignored);
-    for (const Chart& chart : charts)
-        writeTextFile(folder + "/" + chart.id + ".svg", formatChartSvg(chart));
+    const std::string drawn = chart.isOfCurves ? drawCurves(placed) : drawFront(sorted) + drawPoints(placed, sorted);
+    return openSvg(chart.title, kWidth, kHeight) + drawAxes(chart, x, y, hasZeros) + drawn + "</svg>\n";
 }
 
 std::string formatReliabilitySvg(const std::string& title, std::span<const ReliabilitySeries> series)

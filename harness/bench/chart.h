@@ -21,11 +21,15 @@ struct Chart {
     std::string title; // family and scene
     std::string costLabel, errorLabel;
     std::vector<ChartPoint> points;
+    bool isOfCurves = false; // points of one name are a curve, in order of cost; there is no front
 };
 
 // Which points no other dominates (cost and error both at most, one of them less). Bounds and values that are not
 // finite are never on it; of equal points all are.
 std::vector<bool> findParetoFront(std::span<const ChartPoint> points);
+
+// Of a chart's points; none where it is of curves.
+std::vector<bool> findChartFront(const Chart& chart);
 
 std::string formatChartSvg(const Chart& chart);
 std::string formatChartsCsv(std::span<const Chart> charts);

@@ -12,7 +12,7 @@ const Plane& FamilyRun::plane(std::string_view name) const
 
 const BenchFamily* findBenchFamily(const std::string& name)
 {
-    static const std::array families{&refractionTechniques()};
+    static const std::array families{&refractionTechniques(), &glossyMappings(), &depthFormats()};
     const auto found =
         std::find_if(families.begin(), families.end(), [&](const BenchFamily* family) { return family->name == name; });
     return found == families.end() ? nullptr : *found;

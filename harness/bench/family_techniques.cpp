@@ -212,14 +212,14 @@ std::vector<Chart> makeCharts(std::span<const BenchScene* const> scenes, const s
 
 const BenchFamily& refractionTechniques()
 {
-    static const BenchFamily family{"refraction_techniques",
-                                    {"Color", "TierWeights"},
-                                    {"Color", "ColorP95"},
-                                    {"Reads", "Rendered", "Cost", "FrameShare"},
-                                    makeMethods,
-                                    judge,
-                                    makeCharts,
-                                    {"Cost"}};
+    static const BenchFamily family{.name = "refraction_techniques",
+                                    .outputs = {"Color", "TierWeights"},
+                                    .errors = {"Color", "ColorP95"},
+                                    .counters = {"Reads", "Rendered", "Cost", "FrameShare"},
+                                    .makeMethods = makeMethods,
+                                    .judge = judge,
+                                    .makeCharts = makeCharts,
+                                    .costs = {"Cost"}};
     return family;
 }
 

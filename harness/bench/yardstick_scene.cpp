@@ -81,15 +81,6 @@ void disturbNormals(Disturbance disturbance, const Scene& scene, const CameraFra
     }
 }
 
-// |d affineDepth / d deviceDepth|.
-double affineDepthPerDeviceDepth(const Camera& camera)
-{
-    const double first = camera.nearDistance, second = 2 * camera.nearDistance;
-    const bool isOrthographic = camera.projection == ProjectionKind::kOrthographic;
-    const double affine = isOrthographic ? second - first : 1 / first - 1 / second;
-    return affine / std::abs(computeDeviceDepth(camera, first) - computeDeviceDepth(camera, second));
-}
-
 bool isStandard(Disturbance disturbance)
 {
     return disturbance == Disturbance::kStandard32 || disturbance == Disturbance::kStandard24 ||
@@ -108,18 +99,18 @@ void makeStandard(GBuffer& gbuffer)
     }
 }
 
-// Largest distance between two neighbouring numbers in [0.5, 1], where a standard depth's far half lies.
-constexpr double kFloatStep = 0x1p-24;
+DepthFormat formatOf(Disturbance disturbance)
+{
+    if (disturbance == Disturbance::kDepth16 || disturbance == Disturbance::kStandard16) return DepthFormat::kUnorm16;
+    if (disturbance == Disturbance::kDepth24 || disturbance == Disturbance::kStandard24) return DepthFormat::kUnorm24;
+    return DepthFormat::kFloat32;
+}
 
 void disturbDepths(Disturbance disturbance, YardstickScene& scene)
 {
     if (isStandard(disturbance)) makeStandard(scene.gbuffer);
-    const Camera& camera = scene.gbuffer.camera;
+    Camera& camera = scene.gbuffer.camera;
     std::vector<double>& depths = scene.gbuffer.planes.at(GBufferChannel::kDeviceDepth).values;
-    if (disturbance == Disturbance::kStandard32) { // it is rounded to float where it is uploaded
-        scene.depthError = 0.5 * kFloatStep * affineDepthPerDeviceDepth(camera);
-        return;
-    }
     if (disturbance == Disturbance::kNoise) {
         RandomStream random(scene.seed ^ 0x6e6f697365ULL);
         const double cleared = clearedDeviceDepth(camera);
@@ -136,11 +127,10 @@ void disturbDepths(Disturbance disturbance, YardstickScene& scene)
         scene.depthError = surfaces > 0 ? kNoiseShare * sum / surfaces : 0;
         return;
     }
-    const bool isShort = disturbance == Disturbance::kDepth16 || disturbance == Disturbance::kStandard16;
-    const double steps = isShort ? 65535.0 : 16777215.0;
+    camera.depthFormat = formatOf(disturbance);
     for (double& depth : depths)
-        depth = std::round(depth * steps) / steps;
-    scene.depthError = 0.5 / steps * affineDepthPerDeviceDepth(camera);
+        depth = roundDeviceDepth(camera, depth);
+    scene.depthError = computeAffineDepthError(camera);
 }
 
 RayTruth truthOf(ScreenKnowledge knowledge)

@@ -215,6 +215,7 @@ void buildCamera(const TableReader& top, Case& testCase)
     Camera& camera = testCase.camera;
     buildDepthConvention(table, testCase);
     camera.projection = static_cast<ProjectionKind>(table.choice("projection"));
+    camera.depthFormat = static_cast<DepthFormat>(table.choice("depth_format"));
     if (camera.projection == ProjectionKind::kOrthographic &&
         camera.depthConvention == DepthConvention::kInfiniteReversed) {
         throw InputError(table.position("depth"),

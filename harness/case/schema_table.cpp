@@ -107,6 +107,10 @@ std::vector<KeySpec> cameraKeys()
             .byDefault("\"reversed\"")
             .says("Depth buffer: from 1 at the near plane to 0; from 0 there to 1; or from 1 there to 0 at infinity "
                   "(perspective)."),
+        Key("camera", "depth_format", kChoice)
+            .oneOf({"float32", "unorm24", "unorm16"})
+            .byDefault("\"float32\"")
+            .says("What an analytic scene's depth buffer stores: floats, or whole numbers of 24 or 16 bits."),
         Key("camera", "ndc_depth", kChoice)
             .oneOf({"zero_to_one", "minus_one_to_one"})
             .byDefault("\"zero_to_one\"")

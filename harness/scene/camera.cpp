@@ -182,6 +182,37 @@ double computeLinearDepth(const Camera& camera, double deviceDepth)
     return nearD / deviceDepth;
 }
 
+namespace {
+
+// Whole numbers that the format has above 0.
+double stepsOf(DepthFormat format)
+{
+    return format == DepthFormat::kUnorm16 ? 65535.0 : 16777215.0;
+}
+
+// Largest distance between two neighbouring floats in [0.5, 1], where a standard depth's far half lies.
+constexpr double kFloatStep = 0x1p-24;
+
+} // namespace
+
+double roundDeviceDepth(const Camera& camera, double deviceDepth)
+{
+    if (camera.depthFormat == DepthFormat::kFloat32) return deviceDepth;
+    const double steps = stepsOf(camera.depthFormat);
+    return std::round(deviceDepth * steps) / steps;
+}
+
+double computeAffineDepthError(const Camera& camera)
+{
+    const bool isFloat = camera.depthFormat == DepthFormat::kFloat32;
+    if (isFloat && camera.depthConvention != DepthConvention::kStandard) return 0.0;
+    const double first = camera.nearDistance, second = 2 * camera.nearDistance;
+    const bool isOrthographic = camera.projection == ProjectionKind::kOrthographic;
+    const double affine = isOrthographic ? second - first : 1 / first - 1 / second;
+    const double device = std::abs(computeDeviceDepth(camera, first) - computeDeviceDepth(camera, second));
+    return 0.5 * (isFloat ? kFloatStep : 1 / stepsOf(camera.depthFormat)) * affine / device;
+}
+
 double clearedDeviceDepth(const Camera& camera)
 {
     return camera.depthConvention == DepthConvention::kStandard ? 1.0 : 0.0;

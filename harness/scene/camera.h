@@ -10,12 +10,15 @@ namespace crossray {
 enum class ProjectionKind { kPerspective, kOrthographic };
 enum class DepthConvention { kReversed, kStandard, kInfiniteReversed };
 enum class NdcDepthRange { kZeroToOne, kMinusOneToOne };
+// How a depth buffer stores a depth in [0,1]: as a float, or as a whole number of 24 or 16 bits over the largest one.
+enum class DepthFormat { kFloat32, kUnorm24, kUnorm16 };
 
 struct Camera {
     ProjectionKind projection = ProjectionKind::kPerspective;
     DepthConvention depthConvention = DepthConvention::kReversed;
     NdcDepthRange ndcDepthRange = NdcDepthRange::kZeroToOne;
     glm::dmat4 worldFromView{1.0}; // rigid
+    DepthFormat depthFormat = DepthFormat::kFloat32;
     double fovYDegrees = 60.0;     // perspective: vertical field of view, in (0, 180)
     double orthographicHeight = 2; // orthographic: metres from bottom to top
     double nearDistance = 0.1;     // metres, > 0
@@ -54,6 +57,11 @@ glm::dvec3 unprojectFromScreen(const Camera& camera, const glm::dvec2& positionS
 // Depth-buffer value in [0,1] (NDC z mapped from [-1,1] where that is the range), and its inverse.
 double computeDeviceDepth(const Camera& camera, double linearDepth);
 double computeLinearDepth(const Camera& camera, double deviceDepth);
+// As the camera's format stores it. A float stays as it is: it is rounded where it is uploaded.
+double roundDeviceDepth(const Camera& camera, double deviceDepth);
+// The most that 1/linearDepth (orthographic: linearDepth) is off by that rounding; 0 for a reversed float, whose steps
+// shrink with the distance as fast.
+double computeAffineDepthError(const Camera& camera);
 // Depth-buffer value of "no surface": 0 for the reversed conventions, 1 for the standard one.
 double clearedDeviceDepth(const Camera& camera);
 

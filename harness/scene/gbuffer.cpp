@@ -54,7 +54,7 @@ void storePixel(const Targets& targets, size_t pixel, const Scene& scene, const 
     const double linearDepth = frame.linearDepth(hit->positionWS);
     store(targets.of(GBufferChannel::kLinearDepth), pixel, linearDepth);
     store(targets.of(GBufferChannel::kDeviceDepth), pixel,
-          glm::clamp(computeDeviceDepth(frame.camera(), linearDepth), 0.0, 1.0));
+          roundDeviceDepth(frame.camera(), glm::clamp(computeDeviceDepth(frame.camera(), linearDepth), 0.0, 1.0)));
     store(targets.of(GBufferChannel::kNormalWS), pixel, hit->backFace ? -hit->normalWS : hit->normalWS);
     store(targets.of(GBufferChannel::kPositionWS), pixel, hit->positionWS);
     store(targets.of(GBufferChannel::kObjectIndex), pixel, static_cast<double>(objectIndexOf(scene, hit->primitive)));

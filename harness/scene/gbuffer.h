@@ -15,7 +15,7 @@ namespace crossray {
 
 // The channels a shader may ask for. Values are doubles; float devices receive them rounded once.
 enum class GBufferChannel {
-    kDeviceDepth, // 1: [0,1], the camera's convention; cleared where there is no surface
+    kDeviceDepth, // 1: [0,1], the camera's convention and format; cleared where there is no surface
     kLinearDepth, // 1: metres along the view axis; 0 where there is no surface
     kNormalWS,    // 3: unit, geometric, on the viewer's side (also for planes seen from behind, and inside a solid); 0
                   // without a surface

@@ -52,6 +52,20 @@ TEST(Chart, AChartOfNothingAndOfOnePointAreCharts)
     EXPECT_EQ(one.find("nan"), std::string::npos);
 }
 
+TEST(Chart, CurvesAreNamedOnceAndHaveNoFront)
+{
+    Chart chart{"id", "curves", "roughness", "error", {}, true};
+    for (const double x : {0.1, 0.5, 1.0}) {
+        chart.points.push_back({"one", x, 0.1 * x});
+        chart.points.push_back({"two", x, 0.1 * x}); // on the same line
+    }
+    const std::string svg = formatChartSvg(chart);
+    EXPECT_EQ(count(svg, "<circle"), 6U);
+    EXPECT_EQ(count(svg, ">one<"), 1U);
+    EXPECT_EQ(count(svg, ">two<"), 1U);
+    EXPECT_EQ(formatChartsCsv(std::vector<Chart>{chart}).find(",1,0\n"), std::string::npos) << "no front";
+}
+
 TEST(Chart, NumbersComeAsCsvAndJson)
 {
     const std::vector<Chart> charts{{"room", "Room", "ms", "share", {{"a", 2, 0.25}, {"b", 3, 0.5}}}};

@@ -127,6 +127,41 @@ TEST(BenchFamily, TablesAndChartsNameTheFamilysFigures)
     EXPECT_NE(charts[2].costLabel.find("device"), std::string::npos);
 }
 
+TEST(BenchFamily, GlossyMethodsAreTwoMappingsOfEachChain)
+{
+    const Case testCase = readBenchCase("glossy/room");
+    const auto methods = makeBenchMethods(testCase);
+    EXPECT_EQ(methods.size(), 12U);
+    Case varied = testCase;
+    findMethod(methods, "exact, means, 32").apply(varied);
+    EXPECT_TRUE(varied.profile.exactMip);
+    const Cubemap means = readCubemap(std::get<CubemapFile>(varied.probes.front().environment.content).file);
+    EXPECT_EQ(means.size, 32);
+    // Straight up from the capture position is the ceiling; the mirror ball around it is not seen.
+    const glm::dvec3 up = nearestTexel(means, {0.1, 1, 0.1});
+    EXPECT_TRUE(glm::length(up - testCase.scene.primitives[1].radiance.colorA) < 1e-6 ||
+                glm::length(up - testCase.scene.primitives[1].radiance.colorB) < 1e-6);
+    Case hdrp = testCase;
+    hdrp.probeProfile = ProbeProfile::kHdrp;
+    EXPECT_THROW(makeBenchMethods(hdrp), InputError);
+}
+
+TEST(BenchFamily, DepthFormatsAreSixUnderTwoTracers)
+{
+    const Case testCase = readBenchCase("depth_formats/room");
+    const auto methods = makeBenchMethods(testCase);
+    ASSERT_EQ(methods.size(), 12U);
+    Case varied = testCase;
+    findMethod(methods, "standard 16, patches").apply(varied);
+    EXPECT_EQ(varied.camera.depthConvention, DepthConvention::kStandard);
+    EXPECT_EQ(varied.camera.depthFormat, DepthFormat::kUnorm16);
+    // Half a step of 16 bits, between 0.1 m and 100 m: 0.5 / 65535 * (1/0.1 - 1/100).
+    EXPECT_NEAR(varied.projection.patches.depthError, 0.5 / 65535 * 9.99, 1e-9);
+    findMethod(methods, "reversed 32, patches").apply(varied);
+    EXPECT_EQ(varied.projection.patches.depthError, 0.0);
+    EXPECT_EQ(findMethod(methods, "reversed 24, HiZ").kind, "depth24");
+}
+
 TEST(BenchFamily, RefractionModelsAreChartedByInstructionsAndTime)
 {
     BenchScene scene;

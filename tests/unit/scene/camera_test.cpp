@@ -207,3 +207,35 @@ TEST(Camera, LookAtRejectsADegenerateView)
     EXPECT_THROW(makeLookAt({0, 5, 0}, {0, 0, 0}, {0, 1, 0}), InputError);
     EXPECT_THROW(makeLookAt({0, std::numeric_limits<double>::quiet_NaN(), 0}, {0, 0, 0}, {0, 1, 0}), InputError);
 }
+
+// Between the near plane and the far one a stored depth is never further off than half a step.
+TEST(Camera, DepthFormatsRoundByHalfAStep)
+{
+    Camera camera;
+    for (const ProjectionKind kind : {ProjectionKind::kPerspective, ProjectionKind::kOrthographic}) {
+        for (const DepthConvention convention : {DepthConvention::kReversed, DepthConvention::kStandard}) {
+            for (const auto& [format, steps] :
+                 {std::pair{DepthFormat::kUnorm24, 16777215.0}, std::pair{DepthFormat::kUnorm16, 65535.0}}) {
+                camera.projection = kind;
+                camera.depthConvention = convention;
+                camera.depthFormat = format;
+                double worst = 0;
+                for (double depth = 0.1; depth < 100; depth *= 1.0037) {
+                    const double exact = computeDeviceDepth(camera, depth);
+                    const double stored = roundDeviceDepth(camera, exact);
+                    EXPECT_LE(std::abs(stored - exact), 0.5000001 / steps);
+                    EXPECT_NEAR(stored * steps, std::round(stored * steps), 1e-6);
+                    const double back = computeLinearDepth(camera, stored);
+                    const bool isOrthographic = kind == ProjectionKind::kOrthographic;
+                    worst = std::max(worst, isOrthographic ? std::abs(back - depth) : std::abs(1 / back - 1 / depth));
+                }
+                const double bound = computeAffineDepthError(camera);
+                EXPECT_LE(worst, bound * 1.0001);
+                EXPECT_GT(worst, bound * 0.9) << "and not much less";
+            }
+        }
+    }
+    camera = {};
+    EXPECT_EQ(roundDeviceDepth(camera, 0.123456789), 0.123456789);
+    EXPECT_EQ(computeAffineDepthError(camera), 0.0) << "a reversed float";
+}
