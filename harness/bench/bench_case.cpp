@@ -266,6 +266,45 @@ void requireMeasurable(const Case& testCase, const BenchOptions& options, const 
     }
 }
 
+// What all methods of a case are measured with.
+struct Measuring {
+    const Case& testCase;
+    const BenchOptions& options;
+    WorkerPool& pool;
+    ShaderCompiler& compiler;
+    const Folders& folders;
+    Precision precision;
+    const CaseData& data;
+    const BenchFamily* family; // null: the effect's own
+    const void* prepared;      // by the family
+};
+
+// Fills errors and counters of a method that was timed. Projections run once more, with their counters.
+void judgeMethod(const Measuring& with, const BenchMethod& method, const Runner& timed, BenchPoint& point)
+{
+    const bool isReflection = with.testCase.effect == TraceEffect::kReflection;
+    const bool judgesHits = with.family != nullptr ? with.family->judgesHits : isReflection;
+    std::optional<Runner> counted;
+    if (judgesHits) {
+        counted = makeRunner(with.testCase, method, with.compiler, with.folders, with.precision, true);
+        runOnce(*counted, with.options.backend, with.pool, with.compiler, with.folders);
+    }
+    const Runner& judged = counted ? *counted : timed;
+    const Answers answers{readPlanes(judged.testCase, judged.last), judged.scale};
+    const Truth& truth = with.data.truth();
+    if (judgesHits) {
+        judgeReflections(truth, answers, point);
+        countCost(truth, answers, point);
+    }
+    if (with.family != nullptr) {
+        with.family->judge({with.data, timed.testCase, answers.planes, timed.job, method, with.prepared}, point);
+    } else if (!isReflection) {
+        judgeRefractions(truth, answers, point);
+        const size_t instructions = countSpirvInstructions(timed.job.programs.back().spirv);
+        point.counters["Instructions"] = static_cast<double>(instructions);
+    }
+}
+
 } // namespace
 
 BenchScene benchCase(const Case& testCase, const BenchOptions& options, WorkerPool& pool, ShaderCompiler& compiler,
@@ -312,33 +351,12 @@ BenchScene benchCase(const Case& testCase, const BenchOptions& options, WorkerPo
     }));
     std::shared_ptr<const void> prepared;
     if (family != nullptr && family->prepare != nullptr) prepared = family->prepare(data);
-    YardstickScene rays;
-    if (isReflection && family == nullptr) {
-        rays = makeYardstickScene(data);
-        fillScene(rays, scene);
-    }
+    if (isReflection && family == nullptr) fillScene(makeYardstickScene(data), scene);
+    const Measuring measuring{testCase, options, pool, compiler, folders, precision, data, family, prepared.get()};
     for (size_t i = 0; i < methods.size(); ++i) {
         const Runner& runner = runners[i + 1];
         BenchPoint point{methods[i].name, methods[i].kind, {}, {}, summarize(runner.milliseconds, scene.baselineMs)};
-        const bool judgesHits = family != nullptr ? family->judgesHits : isReflection;
-        std::optional<Runner> counted;
-        if (judgesHits) {
-            counted = makeRunner(testCase, methods[i], compiler, folders, precision, true);
-            runOnce(*counted, options.backend, pool, compiler, folders);
-        }
-        const Runner& judged = counted ? *counted : runner;
-        const Answers answers{readPlanes(judged.testCase, judged.last), judged.scale};
-        if (judgesHits) {
-            judgeReflections(truth, answers, point);
-            countCost(truth, answers, point);
-        }
-        if (family != nullptr) {
-            family->judge({data, runner.testCase, answers.planes, runner.job, methods[i], prepared.get()}, point);
-        } else if (!isReflection) {
-            judgeRefractions(truth, answers, point);
-            const size_t instructions = countSpirvInstructions(runner.job.programs.back().spirv);
-            point.counters["Instructions"] = static_cast<double>(instructions);
-        }
+        judgeMethod(measuring, methods[i], runner, point);
         scene.points.push_back(std::move(point));
     }
     return scene;
