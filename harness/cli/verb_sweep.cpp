@@ -174,8 +174,10 @@ int sweepCase(const GlobalOptions& global, const SweepVerbOptions& options)
     for (const ListedSweep& sweep : sweeps) {
         const FoundPlan found = findPlan(sweep, options.width, folders.cases);
         if (found.exitCode) return static_cast<int>(*found.exitCode);
-        SweepResult result = runSweep(
-            found.plan, backends, [&](double value) { return measureOnDevices(found.plan, value, backends, devices); });
+        const auto measure = [&](double value, const std::vector<std::string>& asked) {
+            return measureOnDevices(found.plan, value, asked, devices);
+        };
+        SweepResult result = runSweep(found.plan, backends, measure);
         result.id = sweep.id;
         result.summary = found.summary;
         result.command = commandOf(sweep);

@@ -50,7 +50,7 @@ struct SweepPlan {
     SweepKeys keys;
     SweepRange range;
     std::map<std::string, std::string> overrides; // for all values alike
-    double width = 1e-4; // of a bisected edge, as a share of the range
+    double width = 1e-4;                          // of a bisected edge, as a share of the range
 };
 
 // The case at one value. Throws InputError where the format, or how the keys fit together, refuses it; and where the
@@ -61,7 +61,8 @@ Case makeCaseAt(const SweepPlan& plan, double value);
 struct SweepError {
     std::string output, source, unit;
     double mean = 0, p99 = 0, max = 0; // of the finite errors
-    double failed = 0;                 // share of the compared pixels beyond the case's own tolerance
+    uint64_t compared = 0;             // pixels; where there are none nothing is said
+    double failed = 0;                 // share of them beyond the case's own tolerance
     bool passed = false;
     std::map<std::string, double> metrics; // of budgets: recall, precision, false
 };
@@ -119,8 +120,8 @@ struct SweepResult {
     std::vector<SweepEdge> edges;
 };
 
-// The row of one value, with a cell for each backend in their order.
-using MeasureValue = std::function<SweepRow(double value)>;
+// The row of one value, with a cell for each of the backends, cpu64 among them; a bisection asks for few.
+using MeasureValue = std::function<SweepRow(double value, const std::vector<std::string>& backends)>;
 
 // Rows of all values, the edges between them bisected, and a row on either side of each. Throws InputError when every
 // value is refused.
@@ -139,9 +140,10 @@ SweepRow measureOnDevices(const SweepPlan& plan, double value, const std::vector
 // Where something jumps between neighbouring rows, as the two rows' places.
 struct SweepJump {
     EdgeKind kind = EdgeKind::kClasses;
-    size_t cell = 0;                     // backend
-    size_t row = 0;                      // and the next one
-    bool isStart = true, isWhole = true; // of a run of changing rows: its first or last pair, or all of it
+    size_t cell = 0;                 // backend
+    size_t row = 0;                  // and the next one
+    bool isStart = true;             // the first pair of a run of changing rows, or all of it; else the last
+    size_t runBegin = 0, runEnd = 0; // rows before and after the run
 };
 std::vector<SweepJump> findJumps(const SweepResult& result);
 

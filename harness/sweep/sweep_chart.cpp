@@ -158,7 +158,8 @@ Panel makeErrorPanel(const SweepResult& result, size_t expectation, const SweepE
     for (size_t cell = 0; cell < result.backends.size(); ++cell) {
         const auto read = [&](double (*number)(const SweepError&)) {
             return readRows(result, cell, [&](const SweepCell& answer) -> std::optional<double> {
-                if (expectation >= answer.errors.size()) return std::nullopt;
+                const bool hasError = expectation < answer.errors.size() && answer.errors[expectation].compared > 0;
+                if (!hasError) return std::nullopt;
                 return number(answer.errors[expectation]);
             });
         };
@@ -378,10 +379,18 @@ std::vector<std::string> textBelow(const SweepResult& result)
     return lines;
 }
 
+// Of several keys the first.
+std::string labelOf(const std::string& parameter)
+{
+    const auto others = std::count(parameter.begin(), parameter.end(), ',');
+    return others == 0 ? parameter : fmt::format("{} and {} more", parameter.substr(0, parameter.find(',')), others);
+}
+
 } // namespace
 
 std::string formatSweepSvg(const SweepResult& result)
 {
+    const std::string label = labelOf(result.parameter);
     const Axis x{result.range.from, result.range.to, kLeft, kWidth - kRight, result.range.isLog};
     std::vector<double> xs;
     for (const SweepRow& row : result.rows)
@@ -399,8 +408,8 @@ std::string formatSweepSvg(const SweepResult& result)
         fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
                     "font-family=\"DejaVu Sans, Verdana, sans-serif\" fill=\"none\">\n<title>{2}</title>\n"
                     "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n",
-                    kWidth, height, escape(result.caseName + ": " + result.parameter));
-    svg += drawText(kLeft, 24, result.caseName + ": " + result.parameter, "font-size=\"15\" fill=\"#20242a\"");
+                    kWidth, height, escape(result.caseName + ": " + label));
+    svg += drawText(kLeft, 24, result.caseName + ": " + label, "font-size=\"15\" fill=\"#20242a\"");
     svg += drawMarks(result, xs, kTop + 34, bottom);
     double top = kTop + 34;
     for (const Panel& panel : panels) {
@@ -408,7 +417,7 @@ std::string formatSweepSvg(const SweepResult& result)
         top += step;
     }
     svg += drawEdges(result, x, kTop + 10, bottom);
-    svg += drawText(0.5 * (kLeft + kWidth - kRight), bottom + 32, result.parameter,
+    svg += drawText(0.5 * (kLeft + kWidth - kRight), bottom + 32, label,
                     "font-size=\"12\" fill=\"#20242a\" text-anchor=\"middle\"");
     double row = bottom + 54;
     for (const std::string& line : lines) {

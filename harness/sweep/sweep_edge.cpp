@@ -87,13 +87,13 @@ void addClassJumps(const SweepResult& result, size_t cell, std::vector<SweepJump
             if (change > greatest) steepest = end;
             greatest = std::max(greatest, change);
         }
-        if (end - first == 1) {
-            jumps.push_back({EdgeKind::kClasses, cell, first, true, true});
-        } else if (2 * (end - first) > pairs) {
-            jumps.push_back({EdgeKind::kClasses, cell, steepest, true, true});
+        if (2 * (end - first) > pairs) {
+            jumps.push_back({EdgeKind::kClasses, cell, steepest, true, steepest, steepest + 1});
         } else {
-            jumps.push_back({EdgeKind::kClasses, cell, first, true, false});
-            jumps.push_back({EdgeKind::kClasses, cell, end - 1, false, false});
+            // What changes up to an end of the sweep begins or ends beyond it.
+            const bool isOne = end - first == 1;
+            if (isOne || first > 0) jumps.push_back({EdgeKind::kClasses, cell, first, true, first, end});
+            if (!isOne && end < pairs) jumps.push_back({EdgeKind::kClasses, cell, end - 1, false, first, end});
         }
         first = end;
     }
@@ -205,22 +205,30 @@ class EdgeSearch {
     // Bisects the jump and tells what it is.
     SweepEdge locate(const SweepJump& jump)
     {
-        SweepRow low = result_.rows[jump.row], high = result_.rows[jump.row + 1];
-        const double whole = changeBetween(jump.kind, low, high, jump.cell);
+        const std::string& backend = result_.backends[jump.cell];
+        const std::vector<std::string> asked =
+            backend == "cpu64" ? std::vector<std::string>{backend} : std::vector<std::string>{backend, "cpu64"};
+        SweepRow low = pick(result_.rows[jump.row], asked), high = pick(result_.rows[jump.row + 1], asked);
+        const double whole = changeBetween(jump.kind, low, high, 0);
         const SweepRow first = low, last = high; // the sides that are known to differ
         while (!isNarrow(low.value, high.value)) {
-            SweepRow middle = measure_(middleOf(low.value, high.value));
-            const bool isBeyond = jump.isStart ? changeBetween(jump.kind, first, middle, jump.cell) > 0
-                                               : changeBetween(jump.kind, middle, last, jump.cell) == 0;
+            SweepRow middle = pick(measure_(middleOf(low.value, high.value), asked), asked);
+            const bool isBeyond = jump.isStart ? changeBetween(jump.kind, first, middle, 0) > 0
+                                               : changeBetween(jump.kind, middle, last, 0) == 0;
             const bool isOdd = middle.refused.empty() != low.refused.empty() && jump.kind != EdgeKind::kRefused;
             if (isOdd) break;
             (isBeyond ? high : low) = std::move(middle);
         }
+        low = measureWhole(low.value);
+        high = measureWhole(high.value);
         SweepEdge edge{jump.kind, result_.backends[jump.cell], low.value, high.value, false, ""};
         const bool isClasses = jump.kind == EdgeKind::kClasses;
         edge.isGradual = isClasses && changeBetween(jump.kind, low, high, jump.cell) < 0.5 * whole;
-        const SweepRow& after = edge.isGradual && jump.isStart ? last : high;
-        edge.sentence = tell(jump, edge, edge.isGradual && !jump.isStart ? first : low, after);
+        if (!edge.isGradual)
+            edge.sentence = tell(jump, edge, low, high);
+        else
+            edge.sentence = jump.isStart ? tell(jump, edge, low, result_.rows[jump.runEnd])
+                                         : tell(jump, edge, result_.rows[jump.runBegin], high);
         low.isAtEdge = high.isAtEdge = true;
         found_.push_back(std::move(low));
         found_.push_back(std::move(high));
@@ -242,6 +250,25 @@ class EdgeSearch {
     }
 
   private:
+    // The row with these backends' cells alone.
+    static SweepRow pick(SweepRow row, const std::vector<std::string>& backends)
+    {
+        std::vector<SweepCell> cells;
+        for (const std::string& backend : backends) {
+            for (SweepCell& cell : row.cells) {
+                if (cell.backend == backend) cells.push_back(std::move(cell));
+            }
+        }
+        row.cells = std::move(cells);
+        return row;
+    }
+    SweepRow measureWhole(double value) const
+    {
+        for (const SweepRow& row : result_.rows) {
+            if (row.value == value) return row;
+        }
+        return measure_(value, result_.backends);
+    }
     double middleOf(double a, double b) const
     {
         const double middle = result_.range.middle(a, b);
@@ -262,11 +289,21 @@ class EdgeSearch {
                                             formatValue(result_.range.middle(edge.low, edge.high)),
                                             fmt::format("{:.8g}", edge.low), fmt::format("{:.8g}", edge.high));
         const std::string change = describeChange(jump.kind, before, after, jump.cell);
-        const bool isOfBackend = jump.kind != EdgeKind::kRefused && jump.kind != EdgeKind::kClasses;
-        const std::string where = isOfBackend ? " on " + edge.backend : "";
+        const std::string where = namesAt(jump.kind, before, after);
         if (!edge.isGradual) return fmt::format("{}{}: {}", between, where, change);
-        return jump.isStart ? fmt::format("{} a change begins: by {} {}", between, formatValue(after.value), change)
-                            : fmt::format("{} a change ends: since {} {}", between, formatValue(before.value), change);
+        return jump.isStart ? fmt::format("{} a change begins: by {}, {}", between, formatValue(after.value), change)
+                            : fmt::format("{} a change ends: since {}, {}", between, formatValue(before.value), change);
+    }
+
+    // " on lavapipe, osmesa": all that jump there.
+    std::string namesAt(EdgeKind kind, const SweepRow& before, const SweepRow& after) const
+    {
+        if (kind == EdgeKind::kRefused || kind == EdgeKind::kClasses) return "";
+        std::vector<std::string> names;
+        for (size_t cell = 0; cell < result_.backends.size(); ++cell) {
+            if (changeBetween(kind, before, after, cell) > 0) names.push_back(result_.backends[cell]);
+        }
+        return fmt::format(" on {}", fmt::join(names, ", "));
     }
 
     SweepResult& result_;
@@ -287,30 +324,27 @@ std::vector<SweepJump> findJumps(const SweepResult& result)
 {
     std::vector<SweepJump> jumps;
     if (result.rows.size() < 2) return jumps;
-    const auto addAll = [&](EdgeKind kind, size_t cell) {
+    // The same jump on the next backend says nothing more, and of those to and fro the first and the last are enough.
+    const auto addAll = [&](EdgeKind kind, size_t firstCell, size_t endCell) {
+        std::vector<SweepJump> found;
         for (size_t row = 0; row + 1 < result.rows.size(); ++row) {
-            if (changeBetween(kind, result.rows[row], result.rows[row + 1], cell) == 0) continue;
-            // The same jump on the next backend says nothing more.
-            const bool isKnown = std::any_of(jumps.begin(), jumps.end(), [&](const SweepJump& jump) {
-                return jump.kind == kind && jump.row == row;
-            });
-            if (!isKnown) jumps.push_back({kind, cell, row, true, true});
+            for (size_t cell = firstCell; cell < endCell; ++cell) {
+                if (changeBetween(kind, result.rows[row], result.rows[row + 1], cell) == 0) continue;
+                found.push_back({kind, cell, row, true, row, row + 1});
+                break;
+            }
         }
+        if (found.size() > 2) found.erase(found.begin() + 1, found.end() - 1);
+        jumps.insert(jumps.end(), found.begin(), found.end());
     };
-    addAll(EdgeKind::kRefused, 0);
-    for (const EdgeKind kind : {EdgeKind::kFiniteness, EdgeKind::kFailure}) {
-        for (size_t cell = 0; cell < result.backends.size(); ++cell)
-            addAll(kind, cell);
-    }
+    const size_t backends = result.backends.size();
+    addAll(EdgeKind::kRefused, 0, 1);
+    addAll(EdgeKind::kFiniteness, 0, backends);
+    addAll(EdgeKind::kFailure, 0, backends);
     addClassJumps(result, placeOf(result, "cpu64"), jumps);
-    for (const EdgeKind kind : {EdgeKind::kTolerance, EdgeKind::kDisagreement}) {
-        for (size_t cell = 0; cell < result.backends.size(); ++cell)
-            addAll(kind, cell);
-    }
-    if (jumps.empty()) {
-        for (size_t cell = 0; cell < result.backends.size(); ++cell)
-            addAll(EdgeKind::kError, cell);
-    }
+    addAll(EdgeKind::kTolerance, 0, backends);
+    addAll(EdgeKind::kDisagreement, 0, backends);
+    if (jumps.empty()) addAll(EdgeKind::kError, 0, backends);
     if (jumps.size() > kMostEdges) jumps.resize(kMostEdges);
     return jumps;
 }
@@ -325,7 +359,7 @@ SweepResult runSweep(const SweepPlan& plan, const std::vector<std::string>& back
     result.width = plan.width;
     result.backends = backends;
     for (const double value : plan.range.values(plan.keys.isInteger))
-        result.rows.push_back(measure(value));
+        result.rows.push_back(measure(value, backends));
     const bool isAllRefused =
         std::all_of(result.rows.begin(), result.rows.end(), [](const SweepRow& row) { return !row.refused.empty(); });
     if (isAllRefused) throw InputError("every value is refused: " + result.rows.front().refused);
@@ -333,6 +367,9 @@ SweepResult runSweep(const SweepPlan& plan, const std::vector<std::string>& back
     for (const SweepJump& jump : findJumps(result))
         result.edges.push_back(search.locate(jump));
     search.addRows();
+    const bool isRising = result.range.from < result.range.to;
+    std::stable_sort(result.edges.begin(), result.edges.end(),
+                     [&](const SweepEdge& a, const SweepEdge& b) { return isRising ? a.low < b.low : a.low > b.low; });
     return result;
 }
 

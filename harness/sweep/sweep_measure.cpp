@@ -39,8 +39,9 @@ std::vector<SweepError> judgeErrors(CaseJudge& judge, const std::string& backend
                          comparison.mean,
                          comparison.p99,
                          comparison.max,
+                         comparison.compared,
                          0,
-                         comparison.passed,
+                         comparison.passed || comparison.compared == 0,
                          {}};
         if (comparison.compared > 0)
             error.failed = static_cast<double>(comparison.failed) / static_cast<double>(comparison.compared);
@@ -72,13 +73,13 @@ std::string nameOfPlanarStatus(double status)
 {
     static constexpr std::string_view kNames[] = {
         "shown",
-        "camera not in front of the plane",
+        "camera not in front",
         "degenerate plane",
         "no field of view",
         "plane out of view",
         "outside the capture",
         "behind the near plane",
-        "capture looks the other way",
+        "capture looks away",
         "degenerate ray",
         "not asked",
     };
@@ -111,7 +112,10 @@ void countClasses(const std::vector<Plane>& planes, const std::vector<int>& kind
         cell.meanIterations += iterations.values[pixel];
         cell.maxIterations = std::max(cell.maxIterations, iterations.values[pixel]);
     }
-    if (rays == 0) return;
+    if (rays == 0) {
+        cell.classes["nothing traces"] = 1;
+        return;
+    }
     cell.meanIterations /= rays;
     for (auto& [name, share] : cell.classes)
         share /= rays;

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace crossray {
 
@@ -91,6 +93,29 @@ std::string quote(const std::string& text)
     return safe + "\"";
 }
 
+// All that a backend's answer comes to, with a name each.
+std::vector<std::pair<std::string, double>> numbersOf(const SweepCell& cell)
+{
+    std::vector<std::pair<std::string, double>> numbers;
+    for (size_t i = 0; i < cell.errors.size(); ++i) {
+        const SweepError& error = cell.errors[i];
+        if (error.compared == 0) continue;
+        const std::string name = fmt::format("[{}] {} against {}", i + 1, error.output, error.source);
+        numbers.emplace_back(fmt::format("{}: max ({})", name, error.unit), error.max);
+        numbers.emplace_back(fmt::format("{}: p99 ({})", name, error.unit), error.p99);
+        numbers.emplace_back(name + ": share beyond tolerance", error.failed);
+        for (const auto& [metric, value] : error.metrics)
+            numbers.emplace_back(name + ": " + metric, value);
+    }
+    for (const auto& [name, share] : cell.classes)
+        numbers.emplace_back(name, share);
+    numbers.emplace_back("iterations: mean", cell.meanIterations);
+    numbers.emplace_back("iterations: max", cell.maxIterations);
+    numbers.emplace_back("values that are NaN or infinite", static_cast<double>(cell.notFinite));
+    numbers.emplace_back("share whose class is not cpu64's", cell.differs);
+    return numbers;
+}
+
 // NaN and infinities have no number in JSON.
 nlohmann::ordered_json numberOf(double value)
 {
@@ -106,6 +131,7 @@ nlohmann::ordered_json cellJson(const SweepCell& cell)
     }
     json["errors"] = nlohmann::ordered_json::array();
     for (const SweepError& error : cell.errors) {
+        if (error.compared == 0) continue;
         nlohmann::ordered_json item{{"output", error.output},      {"source", error.source},
                                     {"unit", error.unit},          {"mean", numberOf(error.mean)},
                                     {"p99", numberOf(error.p99)},  {"max", numberOf(error.max)},
@@ -149,35 +175,43 @@ std::string formatSweepTable(const SweepResult& result)
 
 std::string formatSweepCsv(const SweepResult& result)
 {
-    std::string text = "parameter,value,edge,backend,state,quantity,unit,number\n";
+    std::vector<std::string> columns; // of numbers, in the order in which they first occur
+    std::map<std::string, size_t> places;
+    const auto placeOf = [&](const std::string& name) {
+        const auto [place, isNew] = places.try_emplace(name, columns.size());
+        if (isNew) columns.push_back(name);
+        return place->second;
+    };
+    struct Line {
+        std::string start;
+        std::map<size_t, double> numbers;
+    };
+    std::vector<Line> lines;
     for (const SweepRow& row : result.rows) {
-        const auto line = [&](const std::string& backend, const std::string& state, const std::string& quantity,
-                              const std::string& unit, double number) {
-            text += fmt::format("{},{},{:d},{},{},{},{},{}\n", quote(result.parameter), row.value, row.isAtEdge,
-                                backend, quote(state), quote(quantity), unit, number);
-        };
-        if (!row.refused.empty()) line("", "refused: " + row.refused, "", "", 0);
+        const std::string start = fmt::format("{:.10g},{:d},", row.value, row.isAtEdge);
+        if (!row.refused.empty()) lines.push_back({start + "," + quote("refused: " + row.refused), {}});
         for (const SweepCell& cell : row.cells) {
-            if (!cell.failure.empty()) {
-                line(cell.backend, cell.failure, "", "", 0);
-                continue;
+            Line line{
+                fmt::format("{}{},{}", start, cell.backend, cell.failure.empty() ? "answered" : quote(cell.failure)),
+                {}};
+            if (cell.failure.empty()) {
+                for (const auto& [name, number] : numbersOf(cell))
+                    line.numbers[placeOf(name)] = number;
             }
-            for (const SweepError& error : cell.errors) {
-                const std::string name = error.output + " against " + error.source;
-                const char* const state = error.passed ? "within tolerance" : "beyond tolerance";
-                line(cell.backend, state, name + ": max", error.unit, error.max);
-                line(cell.backend, state, name + ": p99", error.unit, error.p99);
-                line(cell.backend, state, name + ": beyond", "share", error.failed);
-                for (const auto& [metric, value] : error.metrics)
-                    line(cell.backend, state, name + ": " + metric, "share", value);
-            }
-            for (const auto& [name, share] : cell.classes)
-                line(cell.backend, "ok", "class " + name, "share", share);
-            line(cell.backend, "ok", "iterations: mean", "count", cell.meanIterations);
-            line(cell.backend, "ok", "iterations: max", "count", cell.maxIterations);
-            line(cell.backend, "ok", "values that are NaN or infinite", "count", static_cast<double>(cell.notFinite));
-            line(cell.backend, "ok", "class is not cpu64's", "share", cell.differs);
+            lines.push_back(std::move(line));
         }
+    }
+    std::string text = quote(result.parameter) + ",at edge,backend,state";
+    for (const std::string& column : columns)
+        text.append(",").append(quote(column));
+    text += "\n";
+    for (const Line& line : lines) {
+        text += line.start;
+        for (size_t i = 0; i < columns.size(); ++i) {
+            const auto number = line.numbers.find(i);
+            text += number == line.numbers.end() ? "," : fmt::format(",{:.6g}", number->second);
+        }
+        text += "\n";
     }
     return text;
 }

@@ -49,7 +49,7 @@ SweepRow rowOf(double value, double angle)
     for (const char* backend : {"cpu32", "cpu64"}) {
         SweepCell cell;
         cell.backend = backend;
-        cell.errors = {{"RayDirWS", "analytic refraction_box", "degrees", 0, 1e-6, 1e-6, 0, true, {}}};
+        cell.errors = {{"RayDirWS", "analytic refraction_box", "degrees", 0, 1e-6, 1e-6, 10, 0, true, {}}};
         if (reflected > 0) cell.classes["no raycast: total internal reflection"] = reflected / 10;
         if (reflected < 10) cell.classes["hit"] = 1 - reflected / 10;
         row.cells.push_back(cell);
@@ -142,7 +142,8 @@ TEST(SweepCase, keepsTheSubCase)
 TEST(SweepEdge, isBisectedToItsWidthAndTold)
 {
     const SweepResult result =
-        runSweep(planOf("0.5..2.5:11"), kBackends, [](double v) { return rowOf(v, v < 0.866 ? 60 : 100); });
+        runSweep(planOf("0.5..2.5:11"), kBackends,
+                 [](double v, const std::vector<std::string>&) { return rowOf(v, v < 0.866 ? 60 : 100); });
     ASSERT_EQ(result.edges.size(), 1u);
     const SweepEdge& edge = result.edges[0];
     EXPECT_EQ(edge.kind, EdgeKind::kClasses);
@@ -161,17 +162,33 @@ TEST(SweepEdge, isBisectedToItsWidthAndTold)
 
 TEST(SweepEdge, ofAChangeThatGoesOnHasABeginningAndAnEnd)
 {
-    const auto measure = [](double v) { return rowOf(v, 100 - 100 * std::clamp((v - 3) / 4, 0.0, 1.0)); };
+    const auto measure = [](double v, const std::vector<std::string>&) {
+        return rowOf(v, 100 - 100 * std::clamp((v - 3) / 4, 0.0, 1.0));
+    };
     const SweepResult result = runSweep(planOf("0..20:21"), kBackends, measure);
     ASSERT_EQ(result.edges.size(), 2u);
     EXPECT_NEAR(result.edges[0].low, 3.4, 0.03); // the first of ten rays goes at 90 degrees
     EXPECT_NEAR(result.edges[1].high, 7, 0.03);
 }
 
+TEST(SweepEdge, ofAChangeUpToTheEndOfTheSweepIsItsOtherEndAlone)
+{
+    const auto measure = [](double v, const std::vector<std::string>&) {
+        return rowOf(v, 100 - 100 * std::clamp((v - 3) / 4, 0.0, 1.0));
+    };
+    const SweepResult begins = runSweep(planOf("0..5.5:12"), kBackends, measure);
+    ASSERT_EQ(begins.edges.size(), 1u);
+    EXPECT_NEAR(begins.edges[0].low, 3.4, 0.03);
+    const SweepResult ends = runSweep(planOf("5..20:16"), kBackends, measure);
+    ASSERT_EQ(ends.edges.size(), 1u);
+    EXPECT_NEAR(ends.edges[0].high, 7, 0.03);
+}
+
 TEST(SweepEdge, ofIntegersLiesBetweenNeighbours)
 {
     const SweepResult result =
-        runSweep(planOf("1..1000:10:log", true), kBackends, [](double v) { return rowOf(v, v < 137 ? 60 : 100); });
+        runSweep(planOf("1..1000:10:log", true), kBackends,
+                 [](double v, const std::vector<std::string>&) { return rowOf(v, v < 137 ? 60 : 100); });
     ASSERT_EQ(result.edges.size(), 1u);
     EXPECT_EQ(result.edges[0].low, 136);
     EXPECT_EQ(result.edges[0].high, 137);
@@ -179,8 +196,9 @@ TEST(SweepEdge, ofIntegersLiesBetweenNeighbours)
 
 TEST(SweepEdge, countsDownToo)
 {
-    const SweepResult result =
-        runSweep(planOf("1..0:5"), kBackends, [](double v) { return rowOf(v, v < 0.3 ? 60 : 100); });
+    const SweepResult result = runSweep(planOf("1..0:5"), kBackends, [](double v, const std::vector<std::string>&) {
+        return rowOf(v, v < 0.3 ? 60 : 100);
+    });
     ASSERT_EQ(result.edges.size(), 1u);
     EXPECT_GE(result.edges[0].low, 0.3);
     EXPECT_LT(result.edges[0].high, 0.3);
@@ -189,7 +207,7 @@ TEST(SweepEdge, countsDownToo)
 
 TEST(SweepEdge, ofEachKind)
 {
-    const auto measure = [](double v) {
+    const auto measure = [](double v, const std::vector<std::string>&) {
         SweepRow row = rowOf(v, 60);
         if (v > 9) {
             row.refused = "a.toml:3: too much";
@@ -206,17 +224,53 @@ TEST(SweepEdge, ofEachKind)
     std::string found;
     for (const SweepEdge& edge : result.edges)
         found += std::string(nameOf(edge.kind)) + "=" + std::to_string(static_cast<int>(std::lround(edge.low))) + " ";
-    EXPECT_EQ(found, "refused=9 finiteness=1 failure=7 tolerance=5 disagreement=3 ");
-    EXPECT_NE(result.edges[0].sentence.find("too much"), std::string::npos);
-    EXPECT_NE(result.edges[1].sentence.find("on cpu32: 3 values of HitDepth are NaN or infinite"), std::string::npos);
-    EXPECT_NE(result.edges[2].sentence.find("crash: signal 11"), std::string::npos);
-    EXPECT_NE(result.edges[3].sentence.find("50 % of the pixels beyond it"), std::string::npos);
-    EXPECT_NE(result.edges[4].sentence.find("not cpu64's on 25 % of the rays"), std::string::npos);
+    EXPECT_EQ(found, "finiteness=1 disagreement=3 tolerance=5 failure=7 refused=9 ");
+    EXPECT_NE(result.edges[4].sentence.find("too much"), std::string::npos);
+    EXPECT_NE(result.edges[0].sentence.find("on cpu32: 3 values of HitDepth are NaN or infinite"), std::string::npos);
+    EXPECT_NE(result.edges[3].sentence.find("crash: signal 11"), std::string::npos);
+    EXPECT_NE(result.edges[2].sentence.find("50 % of the pixels beyond it"), std::string::npos);
+    EXPECT_NE(result.edges[1].sentence.find("not cpu64's on 25 % of the rays"), std::string::npos);
+}
+
+TEST(SweepEdge, isNoneWhereNothingIsCompared)
+{
+    const SweepResult result = runSweep(planOf("0..1:5"), kBackends, [](double v, const std::vector<std::string>&) {
+        SweepRow row = rowOf(v, 60);
+        if (v > 0.5) row.cells[0].errors[0].compared = 0;
+        return row;
+    });
+    EXPECT_TRUE(result.edges.empty());
+    EXPECT_EQ(nlohmann::json::parse(formatSweepJson(result))["values"].back()["backends"][0]["errors"].size(), 0u);
+}
+
+TEST(SweepEdge, ofANoiseToAndFroIsItsFirstAndItsLast)
+{
+    const SweepResult result =
+        runSweep(planOf("0..10:11", true), kBackends, [](double v, const std::vector<std::string>&) {
+            SweepRow row = rowOf(v, 60);
+            row.cells[0].differs = std::fmod(v, 2) == 1 ? 0.1 : 0;
+            return row;
+        });
+    ASSERT_EQ(result.edges.size(), 2u);
+    EXPECT_EQ(result.edges[0].low, 0);
+    EXPECT_EQ(result.edges[1].high, 10);
+}
+
+TEST(SweepEdge, namesAllBackendsThatJumpThere)
+{
+    const SweepResult result = runSweep(planOf("0..1:5"), kBackends, [](double v, const std::vector<std::string>&) {
+        SweepRow row = rowOf(v, 60);
+        for (SweepCell& cell : row.cells)
+            cell.notFinite = v > 0.6 ? 1 : 0;
+        return row;
+    });
+    ASSERT_EQ(result.edges.size(), 1u);
+    EXPECT_NE(result.edges[0].sentence.find(" on cpu32, cpu64: "), std::string::npos) << result.edges[0].sentence;
 }
 
 TEST(SweepEdge, ofTheErrorAloneIsFoundWhereNothingElseJumps)
 {
-    const SweepResult jump = runSweep(planOf("0..1:11"), kBackends, [](double v) {
+    const SweepResult jump = runSweep(planOf("0..1:11"), kBackends, [](double v, const std::vector<std::string>&) {
         SweepRow row = rowOf(v, 60);
         row.cells[0].errors[0].max = v < 0.42 ? 1e-5 : 1e-2;
         return row;
@@ -224,7 +278,7 @@ TEST(SweepEdge, ofTheErrorAloneIsFoundWhereNothingElseJumps)
     ASSERT_EQ(jump.edges.size(), 1u);
     EXPECT_EQ(jump.edges[0].kind, EdgeKind::kError);
     EXPECT_NEAR(jump.edges[0].low, 0.42, 2e-3);
-    const SweepResult rounding = runSweep(planOf("0..1:11"), kBackends, [](double v) {
+    const SweepResult rounding = runSweep(planOf("0..1:11"), kBackends, [](double v, const std::vector<std::string>&) {
         SweepRow row = rowOf(v, 60);
         row.cells[0].errors[0].max = v < 0.42 ? 0 : 5e-6;
         return row;
@@ -235,14 +289,16 @@ TEST(SweepEdge, ofTheErrorAloneIsFoundWhereNothingElseJumps)
 TEST(Sweep, ofRefusedValuesAloneIsAnError)
 {
     const std::string refusal = refusalOf([] {
-        runSweep(planOf("0..1"), kBackends, [](double v) { return SweepRow{v, "no such index", false, {}, {}}; });
+        runSweep(planOf("0..1"), kBackends, [](double v, const std::vector<std::string>&) {
+            return SweepRow{v, "no such index", false, {}, {}};
+        });
     });
     EXPECT_NE(refusal.find("every value is refused: no such index"), std::string::npos);
 }
 
 TEST(SweepReport, hasEveryNumber)
 {
-    SweepResult result = runSweep(planOf("0.5..2.5:3"), kBackends, [](double v) {
+    SweepResult result = runSweep(planOf("0.5..2.5:3"), kBackends, [](double v, const std::vector<std::string>&) {
         SweepRow row = rowOf(v, v < 0.866 ? 60 : 100);
         row.cells[0].errors[0].max = std::numeric_limits<double>::infinity();
         if (v > 2) row.refused = "a <bad> \"value\"", row.cells.clear();
@@ -256,7 +312,12 @@ TEST(SweepReport, hasEveryNumber)
     EXPECT_EQ(json["values"].back()["refused"], "a <bad> \"value\"");
     EXPECT_EQ(json["edges"].size(), result.edges.size());
     const std::string csv = formatSweepCsv(result);
-    EXPECT_NE(csv.find("cpu64,\"ok\",\"class hit\",share,0.6\n"), std::string::npos) << csv;
+    EXPECT_EQ(
+        csv.find(
+            "\"material.ior\",at edge,backend,state,\"[1] RayDirWS against analytic refraction_box: max (degrees)\""),
+        0u)
+        << csv;
+    EXPECT_NE(csv.find("\n0.5,0,cpu64,answered,1e-06,1e-06,0,0.6,0.4,0,0,0,0\n"), std::string::npos) << csv;
     EXPECT_NE(csv.find("\"refused: a <bad> \"\"value\"\"\""), std::string::npos) << csv;
     const std::string table = formatSweepTable(result);
     EXPECT_NE(table.find("refused: a <bad>"), std::string::npos);
