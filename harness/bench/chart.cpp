@@ -15,6 +15,8 @@ constexpr double kLeft = 78, kRight = 24, kTop = 48, kBottom = 62;
 constexpr double kZeroBand = 26;    // pixels below the axis, for errors of 0
 constexpr double kNameMargin = 170; // for the names of curves
 constexpr double kTextHeight = 13, kTextWidth = 6.5;
+constexpr double kNearName = 40; // pixels from a point to its name; what finds no place there is numbered
+constexpr double kKeyWidth = 270;
 constexpr const char* kFrontColor = "#1f5fa8";
 constexpr const char* kPaleColor = "#b9bec6";
 constexpr const char* kOwnColor = "#c2571a";
@@ -105,7 +107,7 @@ struct Box {
     bool overlaps(const Box& other) const { return x0 < other.x1 && other.x0 < x1 && y0 < other.y1 && other.y0 < y1; }
 };
 
-// Finds a free place for each label around its point, nearest first; draws a leader where it is not beside the point.
+// Finds a free place for each label near its point, nearest first; draws a leader where it is not beside the point.
 class Labels {
   public:
     void block(double x, double y, double radius) { block(x, y, x, y, radius); }
@@ -115,10 +117,11 @@ class Labels {
         taken_.push_back({std::min(x0, x1) - radius, std::min(y0, y1) - radius, std::max(x0, x1) + radius,
                           std::max(y0, y1) + radius});
     }
-    std::string add(double x, double y, const std::string& text, const char* color)
+    // Nothing where there is no free place within `reach` pixels.
+    std::string add(double x, double y, const std::string& text, const char* color, double reach)
     {
         const double width = kTextWidth * static_cast<double>(text.size());
-        for (double distance = 0; distance < 260; distance += kTextHeight) {
+        for (double distance = 0; distance < reach; distance += kTextHeight) {
             for (const double side : {1.0, -1.0}) {
                 for (const double lift : {0.0, -1.0, 1.0}) {
                     if (distance > 0 && lift == 0.0) continue;
@@ -225,10 +228,30 @@ std::string drawPoint(const Placed& p)
                            p.x, p.y);
     }
     const char* const color = p.point->isOwn ? kOwnColor : p.isOnFront ? kFrontColor : kPaleColor;
-    return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4.5\" fill=\"{}\"/>\n", p.x, p.y, color);
+    return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4.5\" fill=\"{}\"><title>{}</title></circle>\n", p.x,
+                       p.y, color, escape(p.point->name));
 }
 
-std::string drawPoints(const std::vector<Placed>& placed, const std::vector<Placed>& front)
+const char* nameColor(const Placed& p)
+{
+    return p.point->isOwn ? kOwnColor : p.isOnFront ? "#20242a" : "#8a9099";
+}
+
+// What the numbers beside crowded points stand for, in a column of its own.
+std::string drawKey(const std::vector<const Placed*>& numbered)
+{
+    std::string svg;
+    double y = kTop + 8;
+    for (size_t i = 0; i < numbered.size(); ++i, y += 17) {
+        svg += fmt::format("<text x=\"{}\" y=\"{}\" font-size=\"11\" fill=\"{}\"><tspan font-weight=\"bold\">{}</tspan>"
+                           "<tspan x=\"{}\">{}</tspan></text>\n",
+                           kWidth, y, nameColor(*numbered[i]), i + 1, kWidth + 24, escape(numbered[i]->point->name));
+    }
+    return svg;
+}
+
+// `width`: grows where points are too close to each other for their names.
+std::string drawPoints(const std::vector<Placed>& placed, const std::vector<Placed>& front, double& width)
 {
     Labels labels;
     std::string svg;
@@ -241,15 +264,23 @@ std::string drawPoints(const std::vector<Placed>& placed, const std::vector<Plac
     // A person's own names have the first choice of places, then those of the front; their dots lie on top.
     const auto rank = [](const Placed& p) { return p.point->isOwn ? 0 : p.isOnFront ? 1 : 2; };
     std::string names;
+    std::vector<const Placed*> numbered;
     for (const int turn : {0, 1, 2}) {
         for (const Placed& p : placed) {
             if (rank(p) == 2 - turn) svg += drawPoint(p);
             if (rank(p) != turn) continue;
-            const char* const text = p.point->isOwn ? kOwnColor : p.isOnFront ? "#20242a" : "#8a9099";
-            names += labels.add(p.x, p.y, p.point->name, text);
+            const std::string name = labels.add(p.x, p.y, p.point->name, nameColor(p), kNearName);
+            if (name.empty()) numbered.push_back(&p);
+            names += name;
         }
     }
-    return svg + names;
+    std::sort(numbered.begin(), numbered.end(), [](const Placed* a, const Placed* b) { return a->y < b->y; });
+    for (size_t i = 0; i < numbered.size(); ++i) {
+        const Placed& p = *numbered[i];
+        names += labels.add(p.x, p.y, std::to_string(i + 1), nameColor(p), 200);
+    }
+    if (!numbered.empty()) width += kKeyWidth;
+    return svg + names + drawKey(numbered);
 }
 
 // Each name's points as one line with dots; the names stand in the margin, in the order of the lines' ends.
@@ -327,8 +358,10 @@ std::string formatChartSvg(const Chart& chart)
         placed.push_back({&point, x.place(point.cost), height, front[i]});
     }
     const std::vector<Placed> sorted = sortFront(placed);
-    const std::string drawn = chart.isOfCurves ? drawCurves(placed) : drawFront(sorted) + drawPoints(placed, sorted);
-    return openSvg(chart.title, kWidth, kHeight) + drawAxes(chart, x, y, hasZeros) + drawn + "</svg>\n";
+    double width = kWidth;
+    const std::string drawn =
+        chart.isOfCurves ? drawCurves(placed) : drawFront(sorted) + drawPoints(placed, sorted, width);
+    return openSvg(chart.title, width, kHeight) + drawAxes(chart, x, y, hasZeros) + drawn + "</svg>\n";
 }
 
 std::string formatReliabilitySvg(const std::string& title, std::span<const ReliabilitySeries> series)

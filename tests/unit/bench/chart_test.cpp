@@ -37,11 +37,28 @@ TEST(Chart, EveryPointIsDrawnAndNamed)
     const std::string svg = formatChartSvg(chart);
     EXPECT_EQ(count(svg, "<circle"), 13U);
     for (const ChartPoint& point : chart.points)
-        EXPECT_EQ(count(svg, ">" + point.name + "<"), 1U) << point.name;
+        EXPECT_EQ(count(svg, ">" + point.name + "<"), 2U) << point.name << ": beside its dot, and under the pointer";
     EXPECT_NE(svg.find("A &lt; B &amp; C"), std::string::npos);
     EXPECT_NE(svg.find(">0</text>"), std::string::npos) << "the band of errors of 0";
     EXPECT_EQ(svg.find("nan"), std::string::npos);
     EXPECT_EQ(svg.find("inf"), std::string::npos);
+}
+
+TEST(Chart, NamesThatFindNoPlaceAreNumbered)
+{
+    Chart chart{"id", "crowd", "reads a ray", "wrong share", {{"far", 1, 1}}};
+    for (int i = 0; i < 20; ++i)
+        chart.points.push_back({"one of a crowd, " + std::to_string(i), 100 + 0.01 * i, 0.1});
+    const std::string svg = formatChartSvg(chart);
+    for (const ChartPoint& point : chart.points)
+        EXPECT_EQ(count(svg, ">" + point.name + "<"), 2U) << point.name;
+    const size_t keyed = count(svg, "font-weight=\"bold\"");
+    EXPECT_GT(keyed, 8U);
+    for (size_t i = 1; i <= keyed; ++i) {
+        EXPECT_EQ(count(svg, "\"stroke\">" + std::to_string(i) + "</text>"), 1U) << i << " beside its dot";
+        EXPECT_EQ(count(svg, "\"bold\">" + std::to_string(i) + "</tspan>"), 1U) << i << " in the key";
+    }
+    EXPECT_EQ(count(svg, "width=\"880\""), 0U) << "the key has a column of its own";
 }
 
 TEST(Chart, AChartOfNothingAndOfOnePointAreCharts)
