@@ -1,5 +1,7 @@
 #include "harness/bench/chart.h"
 
+#include "harness/base/text.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,24 +23,6 @@ constexpr const char* kFrontColor = "#1f5fa8";
 constexpr const char* kPaleColor = "#b9bec6";
 constexpr const char* kOwnColor = "#c2571a";
 constexpr std::array<const char*, 4> kSeriesColors{"#1f5fa8", "#c2571a", "#2f8f4e", "#7a4fa3"};
-
-std::string escape(const std::string& text)
-{
-    std::string safe;
-    for (const char c : text) {
-        if (c == '&')
-            safe += "&amp;";
-        else if (c == '<')
-            safe += "&lt;";
-        else if (c == '>')
-            safe += "&gt;";
-        else if (c == '"')
-            safe += "&quot;";
-        else
-            safe += c;
-    }
-    return safe;
-}
 
 bool isDrawn(const ChartPoint& point)
 {
@@ -153,7 +137,7 @@ class Labels {
         }
         return svg + fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"11\" fill=\"{}\" stroke=\"#ffffff\" "
                                  "stroke-width=\"3\" paint-order=\"stroke\">{}</text>\n",
-                                 box.x0, baseline, color, escape(text));
+                                 box.x0, baseline, color, escapeMarkup(text));
     }
     std::vector<Box> taken_;
 };
@@ -164,7 +148,7 @@ std::string openSvg(const std::string& title, double width, double height)
                        "font-family=\"DejaVu Sans, Verdana, sans-serif\" fill=\"none\">\n<title>{2}</title>\n"
                        "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n"
                        "<text x=\"{3}\" y=\"26\" font-size=\"15\" fill=\"#20242a\">{2}</text>\n",
-                       width, height, escape(title), kLeft);
+                       width, height, escapeMarkup(title), kLeft);
 }
 
 std::string drawAxes(const Chart& chart, const LogAxis& x, const LogAxis& y, bool hasZeros)
@@ -191,10 +175,10 @@ std::string drawAxes(const Chart& chart, const LogAxis& x, const LogAxis& y, boo
     svg +=
         fmt::format("<path d=\"M{0} {1}V{2:.1f}H{3}\" stroke=\"#50565f\"/>\n", kLeft, kTop, kHeight - kBottom, right);
     svg += fmt::format("<text x=\"{}\" y=\"{}\" font-size=\"12\" fill=\"#20242a\" text-anchor=\"middle\">{}</text>\n",
-                       0.5 * (kLeft + right), kHeight - 14, escape(chart.costLabel));
+                       0.5 * (kLeft + right), kHeight - 14, escapeMarkup(chart.costLabel));
     svg += fmt::format("<text transform=\"translate(20 {}) rotate(-90)\" font-size=\"12\" fill=\"#20242a\" "
                        "text-anchor=\"middle\">{}</text>\n",
-                       0.5 * (kTop + kHeight - kBottom), escape(chart.errorLabel));
+                       0.5 * (kTop + kHeight - kBottom), escapeMarkup(chart.errorLabel));
     return svg;
 }
 
@@ -229,7 +213,7 @@ std::string drawPoint(const Placed& p)
     }
     const char* const color = p.point->isOwn ? kOwnColor : p.isOnFront ? kFrontColor : kPaleColor;
     return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4.5\" fill=\"{}\"><title>{}</title></circle>\n", p.x,
-                       p.y, color, escape(p.point->name));
+                       p.y, color, escapeMarkup(p.point->name));
 }
 
 const char* nameColor(const Placed& p)
@@ -243,9 +227,10 @@ std::string drawKey(const std::vector<const Placed*>& numbered)
     std::string svg;
     double y = kTop + 8;
     for (size_t i = 0; i < numbered.size(); ++i, y += 17) {
-        svg += fmt::format("<text x=\"{}\" y=\"{}\" font-size=\"11\" fill=\"{}\"><tspan font-weight=\"bold\">{}</tspan>"
-                           "<tspan x=\"{}\">{}</tspan></text>\n",
-                           kWidth, y, nameColor(*numbered[i]), i + 1, kWidth + 24, escape(numbered[i]->point->name));
+        svg +=
+            fmt::format("<text x=\"{}\" y=\"{}\" font-size=\"11\" fill=\"{}\"><tspan font-weight=\"bold\">{}</tspan>"
+                        "<tspan x=\"{}\">{}</tspan></text>\n",
+                        kWidth, y, nameColor(*numbered[i]), i + 1, kWidth + 24, escapeMarkup(numbered[i]->point->name));
     }
     return svg;
 }
@@ -311,7 +296,7 @@ std::string drawCurves(const std::vector<Placed>& placed)
                            "{6:.1f}\" stroke=\"{1}\" stroke-width=\"0.6\"/><text x=\"{7:.1f}\" y=\"{8:.1f}\" "
                            "font-size=\"11\" fill=\"{1}\">{9}</text>\n",
                            path, color, i < kSeriesColors.size() ? "" : " stroke-dasharray=\"5 3\"", last.x, last.y,
-                           last.x + 16, row, last.x + 19, row + 4, escape(last.point->name));
+                           last.x + 16, row, last.x + 19, row + 4, escapeMarkup(last.point->name));
     }
     return svg;
 }
@@ -394,7 +379,7 @@ std::string formatReliabilitySvg(const std::string& title, std::span<const Relia
         svg +=
             fmt::format("<circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"5\" fill=\"{2}\"/><text x=\"{3:.1f}\" y=\"{4:.1f}\" "
                         "font-size=\"11\" fill=\"#20242a\">{5}</text>\n",
-                        x(1) + 22, row - 4, color, x(1) + 33, row, escape(series[i].name));
+                        x(1) + 22, row - 4, color, x(1) + 33, row, escapeMarkup(series[i].name));
         row += 18;
     }
     svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"12\" fill=\"#20242a\" text-anchor=\"middle\">"

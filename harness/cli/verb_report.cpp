@@ -1,4 +1,6 @@
 #include "harness/cli/verbs.h"
+
+#include "harness/base/text.h"
 #include "harness/report/report.h"
 #include "harness/run/run_json.h"
 
@@ -7,22 +9,17 @@
 #include <spawn.h>
 #include <unistd.h>
 
-#include <fstream>
-#include <sstream>
-
 namespace crossray {
 
 namespace fs = std::filesystem;
 
 namespace {
 
-std::string readText(const std::string& file)
+std::string readJsonText(const std::string& file)
 {
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) throw InputError({file, 0, 0}, "there is no such file; allowed are JSON files that crossray wrote");
-    std::ostringstream content;
-    content << stream.rdbuf();
-    return content.str();
+    std::optional<std::string> text = readText(file);
+    if (!text) throw InputError({file, 0, 0}, "there is no such file; allowed are JSON files that crossray wrote");
+    return std::move(*text);
 }
 
 fs::path chooseTarget(const ReportVerbOptions& options, const fs::path& runFolder)
@@ -56,9 +53,9 @@ int reportRun(const ReportVerbOptions& options)
     report.isSingle = options.isSingle;
     report.runFolder = runFolder.generic_string();
     for (const std::string& trace : options.traces)
-        report.traces.push_back({trace, readText(trace)});
+        report.traces.push_back({trace, readJsonText(trace)});
     for (const std::string& bench : options.benches)
-        report.benches.push_back({bench, readText(bench)});
+        report.benches.push_back({bench, readJsonText(bench)});
     for (const std::string& cubemap : options.cubemaps)
         report.cubemaps.push_back({cubemap, readCubemap(cubemap)});
     const fs::path target = chooseTarget(options, runFolder);

@@ -1,5 +1,6 @@
 #include "harness/report/page.h"
 
+#include "harness/base/text.h"
 #include "harness/report/web_files.h"
 
 #include <fmt/format.h>
@@ -10,24 +11,6 @@
 namespace crossray {
 
 namespace {
-
-std::string escapeHtml(std::string_view text)
-{
-    std::string safe;
-    for (const char c : text) {
-        if (c == '&')
-            safe += "&amp;";
-        else if (c == '<')
-            safe += "&lt;";
-        else if (c == '>')
-            safe += "&gt;";
-        else if (c == '"')
-            safe += "&quot;";
-        else
-            safe += c;
-    }
-    return safe;
-}
 
 std::string_view findWebFile(std::string_view name)
 {
@@ -103,11 +86,11 @@ std::string formatPage(std::string_view title, std::span<const PageData> inlined
 {
     std::string data;
     for (const PageData& item : inlined) {
-        data += fmt::format("<script type=\"application/json\" id=\"data-{}\">{}</script>\n", escapeHtml(item.name),
+        data += fmt::format("<script type=\"application/json\" id=\"data-{}\">{}</script>\n", escapeMarkup(item.name),
                             escapeForScript(item.json));
     }
     const std::pair<std::string_view, std::string> places[] = {
-        {"<!--title-->", escapeHtml(title)},
+        {"<!--title-->", escapeMarkup(title)},
         {"/*style*/", std::string(findWebFile("style.css"))},
         {"<!--data-->", data},
         {"/*imports*/", formatImportMap()},

@@ -1,5 +1,6 @@
 #include "harness/run/inputs.h"
 
+#include "harness/base/text.h"
 #include "harness/base/hash.h"
 #include "harness/run/case_judge.h"
 #include "harness/run/plane_files.h"
@@ -7,22 +8,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include <fstream>
-#include <sstream>
-
 namespace crossray {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-std::string readAll(const fs::path& file)
-{
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream content;
-    content << stream.rdbuf();
-    return content.str();
-}
 
 } // namespace
 
@@ -34,14 +24,14 @@ std::string computeInputKey(const Case& testCase, const Job& job)
     for (ProgramSource& program : content.programs)
         program.key.clear();
     Hasher hasher;
-    hasher.addBytes(encodeJob(content)).addString(readAll(testCase.file));
+    hasher.addBytes(encodeJob(content)).addString(readText(testCase.file).value_or(""));
     for (const Expectation& expectation : testCase.expectations) {
         hasher.addString(expectation.output.name);
         hasher.addString(describeSource(expectation.source)).addString(describeTolerance(expectation));
         if (const auto* golden = std::get_if<GoldenSource>(&expectation.source))
-            hasher.addString(readAll(golden->file));
+            hasher.addString(readText(golden->file).value_or(""));
     }
-    if (testCase.recorded) hasher.addString(readAll(testCase.recorded->truthFile));
+    if (testCase.recorded) hasher.addString(readText(testCase.recorded->truthFile).value_or(""));
     return hasher.finish().hex();
 }
 
@@ -49,7 +39,7 @@ PassedCases readPassedCases(const fs::path& runFolder)
 {
     PassedCases cases;
     try {
-        const auto json = nlohmann::json::parse(readAll(runFolder / "inputs.json"));
+        const auto json = nlohmann::json::parse(readText(runFolder / "inputs.json").value_or(""));
         for (const auto& [name, entry] : json.items())
             cases[name] = {entry.at("key").get<std::string>(), entry.at("passed").get<std::set<std::string>>()};
     } catch (const nlohmann::json::exception&) {

@@ -1,13 +1,13 @@
 #include "harness/run/run_json.h"
 
+#include "harness/base/text.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <set>
-#include <sstream>
 
 namespace crossray {
 
@@ -398,12 +398,10 @@ std::filesystem::path findRunJson(const std::filesystem::path& path)
 RunResult readRun(const std::filesystem::path& path)
 {
     const std::filesystem::path file = findRunJson(path);
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream)
+    const std::optional<std::string> text = readText(file);
+    if (!text)
         throw InputError({file.string(), 0, 0}, "there is no such file; allowed is a run's folder or its run.json");
-    std::ostringstream content;
-    content << stream.rdbuf();
-    return parseRunJson(content.str(), file.string());
+    return parseRunJson(*text, file.string());
 }
 
 std::vector<std::string> listRunJsonFields()

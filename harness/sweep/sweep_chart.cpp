@@ -2,6 +2,8 @@
 // iterations, over one axis; the edges as numbered lines, told in words below. SVG that needs nothing else.
 #include "harness/sweep/sweep.h"
 
+#include "harness/base/text.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,17 +23,9 @@ constexpr size_t kLineLength = 150; // letters of the text below
 constexpr std::array<const char*, 8> kColors{"#1f5fa8", "#c2571a", "#2f8f4e", "#7a4fa3",
                                              "#b0224a", "#0e8c92", "#8a6d1a", "#50565f"};
 
-std::string escape(std::string_view text)
-{
-    std::string safe;
-    for (const char c : text)
-        safe += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
-    return safe;
-}
-
 std::string drawText(double x, double y, std::string_view text, std::string_view look)
 {
-    return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>\n", x, y, look, escape(text));
+    return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>\n", x, y, look, escapeMarkup(text));
 }
 constexpr std::string_view kSmall = "font-size=\"11\" fill=\"#50565f\"";
 constexpr std::string_view kSmallEnd = "font-size=\"11\" fill=\"#50565f\" text-anchor=\"end\"";
@@ -408,7 +402,7 @@ std::string formatSweepSvg(const SweepResult& result)
         fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
                     "font-family=\"DejaVu Sans, Verdana, sans-serif\" fill=\"none\">\n<title>{2}</title>\n"
                     "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n",
-                    kWidth, height, escape(result.caseName + ": " + label));
+                    kWidth, height, escapeMarkup(result.caseName + ": " + label));
     svg += drawText(kLeft, 24, result.caseName + ": " + label, "font-size=\"15\" fill=\"#20242a\"");
     svg += drawMarks(result, xs, kTop + 34, bottom);
     double top = kTop + 34;

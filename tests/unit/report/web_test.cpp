@@ -1,4 +1,5 @@
 // The page's logic in node, and the page in a browser; each is skipped where there is none.
+#include "harness/base/text.h"
 #include "harness/base/temporary_folder.h"
 #include "tests/unit/report/report_fixture.h"
 
@@ -12,14 +13,6 @@ using namespace crossray;
 namespace fs = std::filesystem;
 
 namespace {
-
-std::string readText(const fs::path& file)
-{
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream content;
-    content << stream.rdbuf();
-    return content.str();
-}
 
 // A stub that only says how to install the program counts as none.
 bool isInstalled(const std::string& program)
@@ -121,10 +114,10 @@ class BrowserTest : public testing::Test {
                         "--window-size=1400,900 --virtual-time-budget=20000 --enable-logging=stderr --dump-dom "
                         "'file://{1}' >{2} 2>{3}",
                         folder_.path().string(), fs::absolute(page).string(), dump.string(), log.string());
-        EXPECT_EQ(std::system(command.c_str()), 0) << readText(log);
-        const std::string errors = readText(log);
+        EXPECT_EQ(std::system(command.c_str()), 0) << readText(log).value_or("");
+        const std::string errors = readText(log).value_or("");
         EXPECT_EQ(errors.find("Uncaught"), std::string::npos) << errors;
-        const std::string document = readText(dump), open = "<pre id=\"found\">";
+        const std::string document = readText(dump).value_or(""), open = "<pre id=\"found\">";
         const size_t start = document.find(open);
         if (start == std::string::npos) {
             ADD_FAILURE() << "the page did not get to its end\n" << errors;
