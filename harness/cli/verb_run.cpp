@@ -1,4 +1,5 @@
 #include "harness/cli/verbs.h"
+#include "harness/inspect/worst_traces.h"
 #include "harness/report/report.h"
 #include "harness/run/environment.h"
 #include "harness/run/junit.h"
@@ -16,6 +17,7 @@
 #include <algorithm>
 #include <csignal>
 #include <future>
+#include <map>
 #include <random>
 
 namespace crossray {
@@ -82,6 +84,19 @@ void orderCases(std::vector<Case>& cases, const std::optional<uint64_t>& seed)
         std::swap(cases[i - 1], cases[generator() % i]);
 }
 
+// Why failures have no trace, as far as they were to have one.
+void printTraceNotes(const RunResult& run, const Style& style, FILE* text)
+{
+    std::map<std::string, size_t> notes;
+    for (const CaseResult& testCase : run.cases) {
+        for (const BackendResult& result : testCase.backends) {
+            if (!result.traceNote.empty()) ++notes[result.traceNote];
+        }
+    }
+    for (const auto& [note, count] : notes)
+        fmt::print(text, "{} {}: {}\n", style.paint(Ink::kYellow, "not traced:"), countOf(count, "failure"), note);
+}
+
 void printSummary(const RunResult& run, const RunOptions& options, const Style& style, FILE* text)
 {
     const RunCounts counts = countVerdicts(run);
@@ -102,6 +117,7 @@ void printSummary(const RunResult& run, const RunOptions& options, const Style& 
                    countOf(run.backends.size(), "backend"), run.seconds, others, options.output,
                    options.report ? fmt::format(", pages in {}/report/index.html", options.output) : "");
     }
+    if (!options.quiet) printTraceNotes(run, style, text);
     if (!run.unchanged.empty()) {
         fmt::print(text, "{} left out: passed with the same inputs\n", countOf(run.unchanged.size(), "case"));
     }
@@ -195,6 +211,12 @@ int runCases(const GlobalOptions& global, const RunOptions& options)
         execution.processStart = global.processStart;
         execute(selected.cases, execution, makeSteps(pool, compiler, folders.shaders, backends.names), progress,
                 interrupted, run);
+        if (options.planes != KeepPlanes::kNone && !run.interrupted) {
+            WorstTraceLimits limits;
+            limits.threads = cores;
+            keepWorstTraces(run, selected.cases, options.output, makeTraceStep(pool, compiler, folders.shaders), limits,
+                            interrupted);
+        }
         run.workersPeakBytes = pool.peakMemory();
     }
     progress.finish();

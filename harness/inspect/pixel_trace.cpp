@@ -51,14 +51,13 @@ double relativeDifference(double a, double b)
     return size > 0 ? std::abs(a - b) / size : 0;
 }
 
-PixelRecord recordOn(const std::string& backend, const CaseData& data, glm::ivec2 pixel, WorkerPool& pool,
-                     ShaderCompiler& compiler, const Folders& folders)
+PixelRecord recordOn(const std::string& backend, const CaseData& data, glm::ivec2 pixel, const TraceWorkers& workers)
 {
     const Precision precision = usesDoubles(backend) ? Precision::kDouble : Precision::kFloat;
-    const Job job = buildRecordJob(data, compiler, folders.shaders, precision, pixel);
-    pool.fingerprint(backend); // says what is missing where the device cannot be opened
-    const std::chrono::duration<double> timeout(std::max(data.testCase().timeoutSeconds, 60.0));
-    const JobReport report = runExplained(pool, compiler, folders.shaders, backend, 0, job, timeout);
+    const Job job = buildRecordJob(data, workers.compiler, workers.shaders, precision, pixel);
+    workers.pool.fingerprint(backend, workers.core); // says what is missing where the device cannot be opened
+    const JobReport report =
+        runExplained(workers.pool, workers.compiler, workers.shaders, backend, workers.core, job, workers.timeout);
     if (report.outcome == JobOutcome::kShaderError) throw ShaderError(fmt::format("{}: {}", backend, report.text));
     if (report.outcome != JobOutcome::kDone) throw EnvironmentError(fmt::format("{}: {}", backend, report.text));
     return readRecord(pixel, report.result);
@@ -101,24 +100,35 @@ RecordDistance measureDistance(const PixelRecord& first, const PixelRecord& seco
     return distance;
 }
 
+std::string whyNotTraced(const Case& testCase, const std::string& backend)
+{
+    return testCase.projection.model == ProjectionModel::kOwn ? whyNotOn(testCase, backend) : std::string();
+}
+
 PixelTrace tracePixel(const Case& testCase, glm::ivec2 pixel, std::span<const std::string> backends,
-                      const Folders& folders)
+                      const TraceWorkers& workers)
 {
     for (const std::string& backend : backends) {
-        const bool isOwn = testCase.projection.model == ProjectionModel::kOwn;
-        if (const std::string why = whyNotOn(testCase, backend); isOwn && !why.empty())
+        if (const std::string why = whyNotTraced(testCase, backend); !why.empty())
             throw InputError(fmt::format("{}: {} is not traced there: {}", backend, testCase.name, why));
     }
     const CaseData data(prepareForRecord(testCase));
+    PixelTrace trace{testCase.name, testCase.summary, pixel, {}, {}};
+    for (const std::string& backend : backends)
+        trace.records.push_back({backend, recordOn(backend, data, pixel, workers)});
+    if (trace.records.size() == 2) trace.parting = findParting(trace.records[0], trace.records[1]);
+    return trace;
+}
+
+PixelTrace tracePixel(const Case& testCase, glm::ivec2 pixel, std::span<const std::string> backends,
+                      const Folders& folders)
+{
     WorkerOptions options;
     options.mesaCacheFolder = folders.cache / "mesa";
     WorkerPool pool(options);
     ShaderCompiler compiler(folders.cache / "spirv");
-    PixelTrace trace{testCase.name, testCase.summary, pixel, {}, {}};
-    for (const std::string& backend : backends)
-        trace.records.push_back({backend, recordOn(backend, data, pixel, pool, compiler, folders)});
-    if (trace.records.size() == 2) trace.parting = findParting(trace.records[0], trace.records[1]);
-    return trace;
+    const std::chrono::duration<double> timeout(std::max(testCase.timeoutSeconds, 60.0));
+    return tracePixel(testCase, pixel, backends, TraceWorkers{pool, compiler, folders.shaders, 0, timeout});
 }
 
 } // namespace crossray

@@ -4,6 +4,8 @@
 #include "harness/pass/pixel_record.h"
 #include "harness/run/environment.h"
 
+#include <chrono>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -42,7 +44,22 @@ struct RecordDistance {
 };
 RecordDistance measureDistance(const PixelRecord& first, const PixelRecord& second);
 
+// Why no pixel of the case can be traced on the backend; empty where one can.
+std::string whyNotTraced(const Case& testCase, const std::string& backend);
+
+// Where pixels are traced; whoever traces many has one pool and one compiler for all.
+struct TraceWorkers {
+    WorkerPool& pool;
+    ShaderCompiler& compiler;
+    std::filesystem::path shaders;
+    int core = 0;
+    std::chrono::duration<double> timeout{60}; // of each backend
+};
+
 // Runs the case for one pixel on each backend. Throws InputError (the pixel is outside), ShaderError, EnvironmentError.
+PixelTrace tracePixel(const Case& testCase, glm::ivec2 pixel, std::span<const std::string> backends,
+                      const TraceWorkers& workers);
+// The same with workers of its own.
 PixelTrace tracePixel(const Case& testCase, glm::ivec2 pixel, std::span<const std::string> backends,
                       const Folders& folders);
 

@@ -13,6 +13,8 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <fstream>
+#include <sstream>
 
 namespace crossray {
 
@@ -114,9 +116,22 @@ class Report {
                                                                  kTraceSchema, error.what()));
             }
             piece.piece = fmt::format("trace-{}", index_.traces.size());
-            add({piece.piece, trace.json});
+            PageData data{piece.piece, trace.json};
+            if (!hasRoomForTrace(trace, data)) {
+                index_.leftOut.push_back(fmt::format("trace of {}: pixel {}, {}", piece.caseName, piece.x, piece.y));
+                continue;
+            }
+            add(std::move(data));
             index_.traces.push_back(std::move(piece));
         }
+    }
+
+    // Traces come first and are mostly small; one of thousands of steps shall not take the planes' place.
+    bool hasRoomForTrace(const ReportInput& trace, const PageData& data) const
+    {
+        constexpr size_t kShare = 4;
+        if (!options_.isSingle || !trace.isOfRun) return true;
+        return inlinedBytes_ + sizeInPage(data) <= options_.maxBytes / kShare;
     }
 
     void addBenches()
@@ -295,6 +310,22 @@ void removeOldData(const fs::path& folder)
     }
 }
 
+// Those that a person gave come first, and so are shown where both are of a pixel.
+void addTracesOfRun(const RunResult& run, const fs::path& runFolder, ReportOptions& options)
+{
+    for (const CaseResult& testCase : run.cases) {
+        for (const BackendResult& result : testCase.backends) {
+            if (result.traceFile.empty()) continue;
+            const fs::path file = runFolder / result.traceFile;
+            std::ifstream stream(file, std::ios::binary);
+            if (!stream) throw InputError({file.string(), 0, 0}, "there is no such file, and run.json names it");
+            std::ostringstream content;
+            content << stream.rdbuf();
+            options.traces.push_back({file.string(), content.str(), true});
+        }
+    }
+}
+
 } // namespace
 
 ReportSummary makeReport(const RunResult& run, const ReportOptions& options, const ReadPlanes& readPlanes,
@@ -304,8 +335,10 @@ ReportSummary makeReport(const RunResult& run, const ReportOptions& options, con
 }
 
 ReportSummary writeReport(const RunResult& run, const fs::path& runFolder, const fs::path& target,
-                          const ReportOptions& options)
+                          const ReportOptions& given)
 {
+    ReportOptions options = given;
+    addTracesOfRun(run, runFolder, options);
     const auto read = [&](const std::string& file) { return readExr(runFolder / file); };
     if (options.isSingle) {
         if (target.has_parent_path()) makeFolder(target.parent_path());

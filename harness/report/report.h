@@ -22,6 +22,7 @@ inline constexpr size_t kMaxSingleBytes = 20'000'000;
 struct ReportInput {
     std::string name; // for complaints
     std::string json;
+    bool isOfRun = false; // a trace that the run kept: left out of a single file where there is no room
 };
 
 struct ReportCubemap {

@@ -46,24 +46,6 @@ std::string_view nameOf(OutputType type)
     return "count";
 }
 
-double shareOf(const Comparison& comparison)
-{
-    if (comparison.compared == 0) return 0;
-    return static_cast<double>(comparison.failed) / static_cast<double>(comparison.compared);
-}
-
-// What a person looks at first: the failed expectation with the most failed pixels.
-const ExpectationResult* findWorst(const CaseResult& testCase, const BackendResult& result)
-{
-    const ExpectationResult* worst = nullptr;
-    for (const ExpectationResult& expectation : result.expectations) {
-        const bool failed = expectation.judged && expectation.comparison.passed == testCase.mustFail;
-        if (!failed && !expectation.missingGolden) continue;
-        if (worst == nullptr || shareOf(expectation.comparison) > shareOf(worst->comparison)) worst = &expectation;
-    }
-    return worst;
-}
-
 Json formatResult(const CaseResult& testCase, const BackendResult& result)
 {
     Json json{{"backend", result.backend},
@@ -71,7 +53,7 @@ Json formatResult(const CaseResult& testCase, const BackendResult& result)
               {"tally", nameOf(tallyOf(result.verdict))}};
     if (result.verdict == Verdict::kPass) return json;
     json["reason"] = result.reason;
-    const ExpectationResult* const worst = findWorst(testCase, result);
+    const ExpectationResult* const worst = findWorstExpectation(testCase, result);
     if (worst == nullptr || tallyOf(result.verdict) == Tally::kPassed) return json;
     json["output"] = worst->output;
     json["expectation"] = worst->index;

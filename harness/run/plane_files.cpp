@@ -33,16 +33,29 @@ bool areSame(double a, double b)
 
 } // namespace
 
-std::string PlaneFiles::write(const std::string& caseName, const std::string& stem, std::span<const Plane> planes) const
+fs::path PlaneFiles::makePlace(const std::string& caseName, const std::string& stem, std::string_view extension) const
 {
     // "vulkan:NAME" is a backend, and no good file name on every system.
     std::string safeStem = stem;
     for (char& character : safeStem) {
         if (character == ':' || character == '/' || character == ' ') character = '_';
     }
-    const fs::path relative = fs::path("planes") / caseName / (safeStem + ".exr");
+    fs::path relative = fs::path("planes") / caseName / (safeStem + std::string(extension));
     createFolder((runFolder_ / relative).parent_path());
+    return relative;
+}
+
+std::string PlaneFiles::write(const std::string& caseName, const std::string& stem, std::span<const Plane> planes) const
+{
+    const fs::path relative = makePlace(caseName, stem, ".exr");
     writeExr(runFolder_ / relative, planes, {{"case", caseName}, {"source", stem}});
+    return relative.generic_string();
+}
+
+std::string PlaneFiles::writeTrace(const std::string& caseName, const std::string& backend, std::string_view json) const
+{
+    const fs::path relative = makePlace(caseName, backend, ".trace.json");
+    writeFileWhole(runFolder_ / relative, json);
     return relative.generic_string();
 }
 

@@ -1,4 +1,5 @@
-// The planes of a run on disk: OUT/planes/CASE/BACKEND.exr, one part an output, and CASE/expected.exr.
+// The planes of a run on disk: OUT/planes/CASE/BACKEND.exr, one part an output, and CASE/expected.exr; and the
+// traces beside them.
 #pragma once
 
 #include "harness/base/plane.h"
@@ -6,6 +7,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace crossray {
@@ -16,7 +18,14 @@ class PlaneFiles {
     // Returns the file's path relative to the run's folder. Throws EnvironmentError when it cannot be written.
     std::string write(const std::string& caseName, const std::string& stem, std::span<const Plane> planes) const;
 
+    // The same for the trace of a pixel: OUT/planes/CASE/BACKEND.trace.json.
+    std::string writeTrace(const std::string& caseName, const std::string& backend, std::string_view json) const;
+
   private:
+    // Relative to the run's folder; its own folder is there.
+    std::filesystem::path makePlace(const std::string& caseName, const std::string& stem,
+                                    std::string_view extension) const;
+
     std::filesystem::path runFolder_;
 };
 

@@ -80,6 +80,27 @@ RunCounts countVerdicts(const RunResult& run)
     return counts;
 }
 
+namespace {
+
+double shareOf(const Comparison& comparison)
+{
+    if (comparison.compared == 0) return 0;
+    return static_cast<double>(comparison.failed) / static_cast<double>(comparison.compared);
+}
+
+} // namespace
+
+const ExpectationResult* findWorstExpectation(const CaseResult& testCase, const BackendResult& result)
+{
+    const ExpectationResult* worst = nullptr;
+    for (const ExpectationResult& expectation : result.expectations) {
+        const bool failed = expectation.judged && expectation.comparison.passed == testCase.mustFail;
+        if (!failed && !expectation.missingGolden) continue;
+        if (worst == nullptr || shareOf(expectation.comparison) > shareOf(worst->comparison)) worst = &expectation;
+    }
+    return worst;
+}
+
 std::string formatCounts(const RunCounts& counts)
 {
     return fmt::format("{} passed, {} failed, {} skipped", counts.passed, counts.failed, counts.skipped);

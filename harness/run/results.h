@@ -65,6 +65,8 @@ struct BackendResult {
     std::vector<std::string> messages; // of the validation layer or the GL
     std::vector<std::string> logLines; // the worker's last lines: crash, timeout
     std::string planesFile;            // relative to the run's folder; empty when not kept
+    std::string traceFile;             // of the worst pixel, relative to the run's folder; empty when there is none
+    std::string traceNote;             // why a failure has no trace; empty otherwise
 };
 
 struct CaseResult {
@@ -118,6 +120,8 @@ struct RunResult {
 };
 
 RunCounts countVerdicts(const RunResult& run);
+// What a person looks at first: the failed expectation with the largest share of failed pixels; null without one.
+const ExpectationResult* findWorstExpectation(const CaseResult& testCase, const BackendResult& result);
 // "12 passed, 0 failed, 1 skipped": the last line of every run.
 std::string formatCounts(const RunCounts& counts);
 // The exit code that the results alone ask for, by precedence: interrupted, environment, broken input, a failure,

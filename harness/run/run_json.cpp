@@ -182,7 +182,9 @@ Json backendResultToJson(const BackendResult& result)
               {"programsWereWarm", result.programsWereWarm},
               {"messages", result.messages},
               {"logLines", result.logLines},
-              {"planes", result.planesFile}};
+              {"planes", result.planesFile},
+              {"trace", result.traceFile},
+              {"traceNote", result.traceNote}};
     Json expectations = Json::array();
     for (const ExpectationResult& expectation : result.expectations)
         expectations.push_back(expectationToJson(expectation));
@@ -201,6 +203,8 @@ BackendResult backendResultFromJson(const Json& json)
     result.messages = json.at("messages").get<std::vector<std::string>>();
     result.logLines = json.at("logLines").get<std::vector<std::string>>();
     result.planesFile = json.at("planes").get<std::string>();
+    result.traceFile = json.value("trace", ""); // younger than the schema
+    result.traceNote = json.value("traceNote", "");
     for (const Json& expectation : json.at("expectations"))
         result.expectations.push_back(expectationFromJson(expectation));
     return result;

@@ -72,7 +72,48 @@ TEST_F(ReportTest, showsTheTraceThatItIsGiven)
     writeFile("trace.json", run("trace a --pixel 1,2 --backend cpu64 --json").out);
     const Outcome outcome = run("report --trace trace.json");
     EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
-    EXPECT_TRUE(exists("out/last/report/data/trace-0.js"));
+    EXPECT_NE(readFile("out/last/report/data/trace-0.js").find("\"trace-0\""), std::string::npos);
+    EXPECT_TRUE(exists("out/last/report/data/trace-1.js")); // the run's own
+}
+
+TEST_F(ReportTest, aRunKeepsTheTraceOfAFailuresWorstPixelAndThePageHasIt)
+{
+    writeCase("cases/a.toml", "dir/a", "", kFails);
+    writeCase("cases/b.toml", "b");
+    const Outcome outcome = run("run --backend cpu64,cpu32");
+    EXPECT_EQ(outcome.exitCode, 1);
+    EXPECT_EQ(outcome.out.find("not traced"), std::string::npos) << outcome.out;
+    EXPECT_FALSE(exists("out/last/planes/b"));
+    const nlohmann::json json = readRun();
+    for (const auto& result : json["cases"][1]["backends"]) {
+        const std::string backend = result["backend"], file = "planes/dir/a/" + backend + ".trace.json";
+        EXPECT_EQ(result["trace"], file);
+        const auto trace = nlohmann::json::parse(readFile("out/last/" + file));
+        EXPECT_EQ(trace["backends"].size(), backend == "cpu64" ? 1u : 2u);
+        EXPECT_EQ(trace["backends"][0]["backend"], backend);
+        const auto& worst = result["expectations"][0]["comparison"]["worst"];
+        EXPECT_EQ(trace["pixel"], nlohmann::json({worst["x"], worst["y"]}));
+    }
+    EXPECT_TRUE(exists("out/last/report/data/trace-1.js"));
+
+    EXPECT_EQ(run("run --backend cpu64,cpu32 --planes none").exitCode, 1);
+    EXPECT_FALSE(exists("out/last/planes"));
+    EXPECT_FALSE(exists("out/last/report/data/trace-0.js"));
+    EXPECT_EQ(readRun()["cases"][1]["backends"][0]["trace"], "");
+}
+
+TEST_F(ReportTest, aRunSaysHowManyFailuresItHasNotTraced)
+{
+    for (int i = 0; i < 42; ++i) {
+        const std::string name = "a" + std::to_string(i);
+        writeCase("cases/" + name + ".toml", name, "", kFails);
+    }
+    const Outcome outcome = run("run --backend cpu64");
+    EXPECT_EQ(outcome.exitCode, 1);
+    EXPECT_NE(outcome.out.find("not traced: 2 failures: a run keeps 40 traces at most\n"), std::string::npos);
+    EXPECT_EQ(outcome.lastLine(), "0 passed, 42 failed, 0 skipped");
+    EXPECT_TRUE(exists("out/last/report/data/trace-39.js"));
+    EXPECT_FALSE(exists("out/last/report/data/trace-40.js"));
 }
 
 TEST_F(ReportTest, saysInOneLineWhatIsWrong)

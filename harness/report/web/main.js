@@ -154,7 +154,7 @@ function drawPixelPanel() {
 async function drawTraceOfPixel() {
   const [x, y] = currentPixel();
   const { item } = model;
-  const found = x >= 0 ? await findTrace(index, item.name, x, y) : null;
+  const found = x >= 0 ? await findTrace(index, item.name, x, y, shown.backend) : null;
   if (item !== model.item) return;
   trace = found;
   const most = trace ? Math.max(...trace.backends.map((record) => record.steps.length)) : 0;

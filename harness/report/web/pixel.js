@@ -19,7 +19,7 @@ function valueRows(label, values, type, reference, error) {
     h('th', { scope: 'row' }, channel === 0 ? label : h('span', { class: 'hidden' }, `${label}, channel ${channel + 1}`)),
     h('td', { class: `number ${loudClass(value)}` }, valueText(type, value)),
     h('td', { class: 'number dim' }, floatHex(value).slice(2)),
-    h('td', { class: 'number' }, reference ? ulpText(reference[channel], value) : ''),
+    h('td', { class: 'number' }, reference && type !== 'class' ? ulpText(reference[channel], value) : ''),
     h('td', { class: 'number' }, channel === 0 && error !== null ? (error === Infinity ? '∞' : formatShort(error, 3)) : '')));
 }
 
@@ -49,7 +49,7 @@ function sourceLine({ shown, mask, x, y }) {
   if (!expectation) return null;
   const isCompared = !mask || mask[y * shown.actual.plane.width + x];
   return h('p', { class: 'dim' }, shown.expected ? 'expected by ' : 'held to ', h('b', {}, expectation.source),
-    `, within ${expectation.tolerance}`,
+    expectation.tolerance === 'exact' ? ', exactly' : `, within ${expectation.tolerance}`,
     isCompared ? '' : h('span', { class: 'warn' }, '; this pixel is not compared'));
 }
 
@@ -65,7 +65,7 @@ function otherOutputs({ shown, planesOf, item, x, y, outputs, update }) {
     const brief = own.map((value) => (type === 'class' ? className(value) : formatShort(value, 6))).join('  ');
     return h('details', { class: 'output' },
       h('summary', {}, h('span', { class: 'output-name' }, name), h('span', { class: 'number' }, brief),
-        differ.length > 0 && h('span', { class: 'differs', title: `${differ.map(([backend]) => backend).join(', ')} differ` }, `≠ ${differ.length}`)),
+        differ.length > 0 && h('span', { class: 'differs', title: `${differ.map(([backend]) => backend).join(', ')} differ from the value shown, bit for bit` }, `≠ ${differ.length}`)),
       h('table', { class: 'values small-values' },
         h('caption', { class: 'hidden' }, `${name} on each backend`),
         h('tbody', {}, answers.flatMap(([backend, values]) => valueRows(backend, values, type, own, null)))),

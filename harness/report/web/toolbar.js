@@ -19,8 +19,8 @@ function range(label, id, value, { min, max, step }, change) {
     } }), shown);
 }
 
-function check(label, value, change) {
-  return h('label', { class: 'control check' }, h('input', { type: 'checkbox', checked: value === 1, onchange: (event) => change(event.target.checked ? 1 : 0) }), label);
+function check(label, value, change, title) {
+  return h('label', { class: 'control check', title }, h('input', { type: 'checkbox', checked: value === 1, onchange: (event) => change(event.target.checked ? 1 : 0) }), label);
 }
 
 /** `shown`: what choose() found; `sources`: backends whose planes are there. */
@@ -45,8 +45,8 @@ export function drawToolbar(box, { state, shown, sources, update }) {
     select('difference', state.dx, { 1: '×1', 4: '×4', 16: '×16', 64: '×64', 1024: '×1024' }, (value) => update({ dx: Number(value) })),
     check('signed', state.signed, (value) => update({ signed: value })),
     select('cells', state.grid, levels, (value) => update({ grid: Number(value) })),
-    check('hatch', state.hatch, (value) => update({ hatch: value })),
-    check('worst', state.worst, (value) => update({ worst: value })),
+    check('hatch', state.hatch, (value) => update({ hatch: value }), 'stripes over the pixels that are not compared'),
+    check('worst', state.worst, (value) => update({ worst: value }), 'a circle with a cross at the pixel with the largest error'),
     h('button', { type: 'button', class: 'small', onclick: () => update({ z: 0, cx: 0.5, cy: 0.5 }) }, 'fit'),
     h('button', { type: 'button', class: 'small', onclick: () => update({ mode: 'auto', ev: 0, off: 0, norm: 0, ch: -1, gamma: -1, dx: 1, signed: 0 }) }, 'reset'));
 }

@@ -20,30 +20,36 @@ export function addTrace(text) {
   return trace;
 }
 
-/** The trace of a case's pixel, or null. */
-export async function findTrace(index, name, x, y) {
+/** The trace of a case's pixel, of the backend where there is one; or null. */
+export async function findTrace(index, name, x, y, backend) {
   const given = dropped.find((trace) => trace.case === name && trace.pixel[0] === x && trace.pixel[1] === y);
   if (given) return given;
-  const known = index.traces.find((trace) => trace.case === name && trace.x === x && trace.y === y);
+  const all = index.traces.filter((trace) => trace.case === name && trace.x === x && trace.y === y);
+  const known = all.find((trace) => trace.backends.includes(backend)) ?? all[0];
   return known ? revive(await loadPiece(known.piece)) : null;
 }
 
 /** Pixels of a case that have a trace. */
 export function tracedPixels(index, name) {
-  return index.traces.filter((trace) => trace.case === name).map((trace) => [trace.x, trace.y])
+  const pixels = index.traces.filter((trace) => trace.case === name).map((trace) => [trace.x, trace.y])
     .concat(dropped.filter((trace) => trace.case === name).map((trace) => trace.pixel));
+  return [...new Map(pixels.map((pixel) => [pixel.join(), pixel])).values()]; // several backends may have the same
 }
 
-const kColumns = ['step', 'level', 'cell', 'position, px', 'ray, m', 'nearest, m', 'farthest, m', '+ thick, m', 'intersection'];
+const kColumns = [
+  ['step', 'counted from 0'], ['level', 'of the depth pyramid; 0 has the pixels themselves'], ['cell', 'column and row on that level'],
+  ['met', 'none: the cell is skipped; cell: looked at closer, or passed; depth: a hit'], ['position, px', 'of the ray as the step begins'],
+  ['ray, m', 'depth of the ray there'], ['nearest, m', 'nearest depth of the scene in the cell'], ['farthest, m', 'farthest depth of the scene in the cell'],
+  ['+ thick, m', 'the nearest depth and the thickness that a surface counts as'],
+];
 
 function stepRow(trace, record, number, step, chosen, choose) {
   const parted = trace.parting && trace.parting.step >= 0 && number >= trace.parting.step;
   const several = trace.backends.length > 1;
   return h('tr', { class: `${number === chosen ? 'shown' : ''} ${parted ? 'parted' : ''}`, onclick: () => choose(number) },
-    [String(number), String(step.level), step.cell.join(','), step.positionSS.map((v) => v.toFixed(3)).join(', '),
-      ...[step.rayLinearDepth, step.nearest, step.farthest, step.nearestAndThickness].map((v) => formatShort(v, 6)),
-      step.intersection].map((text) => h('td', { class: 'number' }, text)),
-    several && h('td', {}, parted ? record.backend : ''));
+    [String(number), String(step.level), step.cell.join(','), step.intersection, step.positionSS.map((v) => v.toFixed(3)).join(', '),
+      ...[step.rayLinearDepth, step.nearest, step.farthest, step.nearestAndThickness].map((v) => formatShort(v, 6))].map((text) => h('td', { class: 'number' }, text)),
+    several && h('td', {}, parted ? record.backend : 'both'));
 }
 
 function stepTable(trace, chosen, choose) {
@@ -59,15 +65,32 @@ function stepTable(trace, chosen, choose) {
   }
   return h('table', { class: 'steps' },
     h('caption', { class: 'hidden' }, 'Steps of the march'),
-    h('thead', {}, h('tr', {}, kColumns.map((name) => h('th', { scope: 'col' }, name)), trace.backends.length > 1 && h('th', { scope: 'col' }, 'backend'))),
+    h('thead', {}, h('tr', {}, kColumns.map(([name, title]) => h('th', { scope: 'col', title }, name)), trace.backends.length > 1 && h('th', { scope: 'col' }, 'backend'))),
     h('tbody', {}, rows));
 }
 
 function facts(record) {
-  if (!record.traced) return `${record.backend}: this pixel traces no ray`;
-  return `${record.backend}: ${record.tracingModel}, ${record.hitSuccess}${record.reason === 'none' ? '' : ` (${record.reason})`}, `
-    + `${record.iterations} of ${record.maxIterations} steps, end (${record.endSS.map((v) => v.toFixed(2)).join(', ')}) px `
-    + `at ${formatShort(record.endLinearDepth, 6)} m, weight ${formatShort(record.hitWeight)}`;
+  if (!record.traced) return 'this pixel traces no ray';
+  const place = (position, depth) => `(${position.map((v) => v.toFixed(2)).join(', ')}) px ${formatShort(depth, 5)} m`;
+  const way = record.tracingModel.startsWith('proxy') ? `${formatShort(record.projectionDistance, 5)} m to the proxy, no march`
+    : `${record.iterations} of ${record.maxIterations} steps`;
+  return [`${record.tracingModel}, ${record.hitSuccess}${record.reason === 'none' ? '' : ` (${record.reason})`}`,
+    record.pathLength > 0 && `${formatShort(record.pathLength, 5)} m in the material`,
+    `${place(record.startSS, record.startLinearDepth)} → ${place(record.endSS, record.endLinearDepth)}`, way,
+    `weight ${formatShort(record.hitWeight)}`].filter(Boolean).join(' · ');
+}
+
+// A line a backend; one for both where they say the same.
+function factLines(trace) {
+  const lines = new Map();
+  for (const record of trace.backends) lines.set(facts(record), [...(lines.get(facts(record)) ?? []), record.backend]);
+  return [...lines].map(([text, backends]) => h('p', {}, h('b', {}, backends.join(', ')), `: ${text}`));
+}
+
+// Where the two part, or that they do not: then the backend is not alone with its answer.
+function verdict(trace) {
+  if (trace.parting) return h('p', { class: 'warn' }, trace.parting.sentence);
+  return trace.backends.length > 1 && h('p', { class: 'dim' }, `${trace.backends.map((record) => record.backend).join(' and ')} take the same way to the same kind of answer.`);
 }
 
 function depthChart(trace, chosen) {
@@ -119,6 +142,7 @@ export function drawTracePanel(box, context) {
     const partner = shown.isAgainstBackend ? [shown.against.title] : shown.expectation?.source.startsWith('agree with ')
       ? [shown.expectation.source.slice('agree with '.length)] : [];
     redraw(box, title,
+      shown.result?.traceNote ? h('p', { class: 'dim' }, `The run kept no trace of the worst pixel: ${shown.result.traceNote}.`) : '',
       x >= 0 ? commandLine('shows its ray', `${traceCommand(item.name, x, y, [shown.backend, ...partner])}`) : '',
       x >= 0 ? commandLine('into this report', `${traceCommand(item.name, x, y, [shown.backend, ...partner], true)} > pixel.json && crossray report ${index.runFolder} --trace pixel.json`) : '',
       fileInput(added),
@@ -126,10 +150,12 @@ export function drawTracePanel(box, context) {
     return;
   }
   const scrolled = box.querySelector('.steps-box')?.scrollTop ?? 0;
-  const table = h('div', { class: 'steps-box', tabindex: '0', role: 'region', 'aria-label': 'Steps' }, stepTable(trace, step, (value) => update({ step: value })));
-  redraw(box, title, h('div', { class: 'trace-facts' }, trace.backends.map((record) => h('p', {}, facts(record))),
-    trace.parting && h('p', { class: 'warn' }, trace.parting.sentence)),
-  h('div', { class: 'trace-body' }, table, depthChart(trace, step) ?? ''));
+  const hasSteps = trace.backends.some((record) => record.steps.length > 0);
+  const table = hasSteps && h('div', { class: 'steps-box', tabindex: '0', role: 'region', 'aria-label': 'Steps' }, stepTable(trace, step, (value) => update({ step: value })));
+  title.append(h('span', { class: 'dim' }, ' · drawn: a dot a step, square the chosen cell, ring a hit, cross none'));
+  redraw(box, title, h('div', { class: 'trace-facts' }, factLines(trace), verdict(trace)),
+    hasSteps && h('div', { class: 'trace-body' }, table, depthChart(trace, step) ?? ''));
+  if (!hasSteps) return;
   table.scrollTop = scrolled;
   table.querySelector('tr.shown')?.scrollIntoView({ block: 'nearest' });
 }

@@ -188,6 +188,27 @@ TEST(Report, tracesAreOfTheirSchemaOrRefused)
     }
 }
 
+TEST(Report, aSingleFileLeavesOutTheRunsLongTracesAndNotThoseAPersonGave)
+{
+    const ReportFixture fixture;
+    ReportOptions options;
+    options.isSingle = true;
+    options.maxBytes = 1'000'000;
+    const std::string rest = std::string(kTrace).substr(1);
+    options.traces = {{"given", R"({"x": ")" + std::string(300'000, 'a') + "\"," + rest},
+                      {"long", R"({"x": ")" + std::string(300'000, 'b') + "\"," + rest, true}};
+    ReportSummary summary;
+    const std::string page = fixture.make(options, &summary).at("index.html");
+    EXPECT_EQ(readPiece(page, "index")["traces"].size(), 1u);
+    EXPECT_NE(page.find("aaaa"), std::string::npos);
+    EXPECT_EQ(page.find("bbbb"), std::string::npos);
+    ASSERT_FALSE(summary.leftOut.empty());
+    EXPECT_EQ(summary.leftOut[0], "trace of hiz/far_depth: pixel 1, 1");
+
+    options.traces = {{"short", kTrace, true}};
+    EXPECT_EQ(readPiece(fixture.make(options).at("index.html"), "index")["traces"].size(), 1u);
+}
+
 TEST(Report, benchesAreOfTheirSchemaOrRefused)
 {
     const ReportFixture fixture;
@@ -227,7 +248,7 @@ TEST(Report, emptyRunHasAPage)
 
 TEST(Report, writesBesideTheRunAndReplacesAnEarlierReport)
 {
-    const ReportFixture fixture;
+    ReportFixture fixture;
     const TemporaryFolder folder("crossray_report_test");
     for (const auto& [file, planes] : fixture.planes) {
         std::filesystem::create_directories((folder.path() / file).parent_path());
@@ -240,6 +261,12 @@ TEST(Report, writesBesideTheRunAndReplacesAnEarlierReport)
     EXPECT_FALSE(std::filesystem::exists(target / "data/planes-99-0.js"));
     EXPECT_TRUE(std::filesystem::exists(target / "index.html"));
     EXPECT_EQ(summary.files, 7u);
+
+    fixture.run.cases[0].backends[1].traceFile = "planes/hiz/far_depth/osmesa.trace.json";
+    EXPECT_THROW(writeReport(fixture.run, folder.path(), target, {}), InputError) << "run.json names what is not there";
+    std::ofstream(folder.path() / "planes/hiz/far_depth/osmesa.trace.json") << kTrace;
+    EXPECT_EQ(writeReport(fixture.run, folder.path(), target, {}).files, 8u);
+    EXPECT_TRUE(std::filesystem::exists(target / "data/trace-0.js"));
 
     std::ofstream(target / "data/mine.txt") << "mine";
     EXPECT_THROW(writeReport(fixture.run, folder.path(), target, {}), InputError);

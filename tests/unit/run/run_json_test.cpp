@@ -31,6 +31,8 @@ RunResult makeRun()
     result.backend = "osmesa";
     result.verdict = Verdict::kFail;
     result.times.dispatch = 0.25;
+    result.traceFile = "planes/a/osmesa.trace.json";
+    result.traceNote = "a note";
     ExpectationResult& expectation = result.expectations.emplace_back();
     expectation.judged = true;
     expectation.output = "HitDepth";
@@ -58,6 +60,8 @@ TEST(RunJson, readsBackWhatItWrote)
     EXPECT_EQ(comparison.confusion->counts[1][2], 5u);
     EXPECT_EQ(comparison.p99, 1.0 / 3.0);
     EXPECT_EQ(run.seed, 7u);
+    EXPECT_EQ(run.cases[0].backends[0].traceFile, "planes/a/osmesa.trace.json");
+    EXPECT_EQ(run.cases[0].backends[0].traceNote, "a note");
     EXPECT_EQ(run.cases[0].backends[0].verdict, Verdict::kFail);
 }
 
