@@ -136,7 +136,7 @@ Node parseToml(std::string_view text, const std::string& fileName)
     try {
         const toml::table table = toml::parse(text, std::string_view(fileName));
         Node root = convertTable(table, file);
-        root.place = {file, 0, 0};
+        root.place = {file, 1, 1}; // where the top level begins: what it lacks is told of there
         return root;
     } catch (const toml::parse_error& error) {
         throw InputError(placeOf(error.source(), file).position(), "not valid TOML: " + oneLine(error.description()));

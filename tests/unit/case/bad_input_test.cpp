@@ -98,15 +98,15 @@ TEST_F(BadInput, filesThatAreNone)
 
 TEST_F(BadInput, whatIsRequiredIsNamed)
 {
-    EXPECT_EQ(refusal(""), "a.toml: \"schema\" is missing at the top level; an integer is required: 1");
+    EXPECT_EQ(refusal(""), "a.toml:1:1: \"schema\" is missing at the top level; an integer is required: 1");
     EXPECT_EQ(refusal("schema = 2\n"), "a.toml:1:10: \"schema\" is 2; 1 is allowed");
     EXPECT_EQ(refusal("schema = 1\nname = \"a\"\nsummary = \"\"\n"),
               "a.toml:3:11: \"summary\" is empty; some text is allowed");
     EXPECT_EQ(refusal("schema = 1\nname = \"a\"\nsummary = \"b\"\nscene = {}\n"),
-              "a.toml: \"expect\" is missing at the top level; a list of tables is required");
+              "a.toml:1:1: \"expect\" is missing at the top level; a list of tables is required");
     EXPECT_EQ(refusal("schema = 1\nname = \"a\"\nsummary = \"b\"\nscene = {}\nexpect = []\n"),
               "a.toml:5:10: \"expect\" is empty; one expectation or more is required");
-    EXPECT_EQ(refusal(complete("")), "a.toml: [scene] or [gbuffer] is missing; exactly one of them is required");
+    EXPECT_EQ(refusal(complete("")), "a.toml:1:1: [scene] or [gbuffer] is missing; exactly one of them is required");
 }
 
 TEST_F(BadInput, namesAndTagsHaveAnAlphabet)
