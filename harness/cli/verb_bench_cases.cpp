@@ -78,8 +78,8 @@ int benchCases(const GlobalOptions& global, const BenchCasesOptions& options)
     BenchResult result;
     result.command = joinCommand(global.commandLine);
     result.fingerprint = pool.fingerprint(bench.backend);
-    fmt::print("{} ({}, {}), {}, {} rounds\n", result.fingerprint.device, result.fingerprint.api,
-               result.fingerprint.driver, result.fingerprint.cpu, bench.rounds);
+    fmt::print("{} ({}, {}), {}, {} round{}\n", result.fingerprint.device, result.fingerprint.api,
+               result.fingerprint.driver, result.fingerprint.cpu, bench.rounds, bench.rounds == 1 ? "" : "s");
     bool isGood = true;
     size_t methods = 0;
     for (const Case& testCase : selected.cases) {

@@ -254,6 +254,9 @@ void printCase(const Case& testCase, const ShowOptions& options, const Style& st
 
 int showCase(const GlobalOptions& global, const ShowOptions& options)
 {
+    if (!options.image.empty() && !options.image.ends_with(".png")) {
+        throw InputError(fmt::format("--image {}: allowed is FILE.png", options.image));
+    }
     const Folders folders = findFolders(global.shaders, global.cases, global.cache);
     const SelectedCases selected = selectCases({{options.testCase}, {}, {}, {}, false}, folders.cases, {}, false);
     if (selected.exitCode) return static_cast<int>(*selected.exitCode);

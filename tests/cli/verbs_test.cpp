@@ -34,6 +34,9 @@ TEST_F(VerbTest, showSaysWhatWillRunAndWhatIsSkipped)
     EXPECT_NE(outcome.out.find("cases/a.toml:9:1"), std::string::npos);
     EXPECT_NE(outcome.out.find("cpu32        skipped: the case does not name this backend"), std::string::npos);
     EXPECT_EQ(run("show missing").exitCode, 4);
+    const Outcome wrong = run("show a --image a.jpg");
+    EXPECT_EQ(wrong.exitCode, 2);
+    EXPECT_EQ(wrong.err, "crossray: --image a.jpg: allowed is FILE.png\n");
 }
 
 TEST_F(VerbTest, compileSpeaksEachLanguage)
