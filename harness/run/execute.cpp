@@ -209,7 +209,9 @@ class Execution {
 
     void recordBrokenInput(const std::string& line)
     {
-        run_.brokenFiles.push_back(line);
+        // One file may break on several backends at once: a line says it for all.
+        auto& lines = run_.brokenFiles;
+        if (std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(line);
         if (options_.keepGoing) return;
         run_.stoppedEarly = true;
         schedule_.stop();
