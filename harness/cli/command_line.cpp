@@ -5,7 +5,9 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <functional>
 #include <map>
@@ -75,6 +77,7 @@ void addSelection(CLI::App& verb, SelectionOptions& selection)
     verb.add_option("--tag", selection.tags, "Only cases with this tag; may be repeated")
         ->type_name("TAG")
         ->expected(1)
+        ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     verb.add_option("--shard", selection.shard, "Part I of N, from 1, by a stable hash of the name")->type_name("I/N");
     verb.add_flag("--last-failed", selection.lastFailed, "Only the cases that failed in the last run (OUT/run.json)");
@@ -90,6 +93,7 @@ void addRun(CLI::App& app, CommandLine& line)
         ->type_name("NAME,...")
         ->delimiter(',')
         ->expected(1)
+        ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     verb.add_option("-j,--jobs", run.cores, "Processors to use; default: all available")
         ->type_name("N")
@@ -151,13 +155,18 @@ void addInspection(CLI::App& app, CommandLine& line)
 
     CLI::App& show = *app.add_subcommand("show", "Show what a case will run, expect and skip");
     show.add_option("case", line.show.testCase, "A case's name, file or glob")->type_name("CASE")->required();
-    show.add_option("--backend", line.show.backends, "As for run")->type_name("NAME,...")->delimiter(',')->expected(1);
+    show.add_option("--backend", line.show.backends, "As for run")
+        ->type_name("NAME,...")
+        ->delimiter(',')
+        ->expected(1)
+        ->allow_extra_args(false);
     show.add_option("--image", line.show.image, "Run the case and draw its debug modes, on the first backend named")
         ->type_name("FILE.png");
     show.add_option("--panels", line.show.panels, "Of the picture, by name; default: all")
         ->type_name("NAME,...")
         ->delimiter(',')
-        ->expected(1);
+        ->expected(1)
+        ->allow_extra_args(false);
     show.add_option("--debug-mode", line.show.debugMode, "With --image: this debug mode alone, in its display encoding")
         ->type_name("NAME");
     show.callback([&line] { line.verb = [&line] { return showCase(line.global, line.show); }; });
@@ -171,6 +180,7 @@ void addInspection(CLI::App& app, CommandLine& line)
         ->type_name("NAME,...")
         ->delimiter(',')
         ->expected(1)
+        ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     trace.add_flag("--json", line.trace.json, "As JSON");
     trace.callback([&line] { line.verb = [&line] { return traceCase(line.global, line.trace); }; });
@@ -203,15 +213,18 @@ void addReport(CLI::App& app, CommandLine& line)
     report.add_option("--trace", line.report.traces, "What `crossray trace --json` printed; may be repeated")
         ->type_name("FILE")
         ->expected(1)
+        ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     report
         .add_option("--bench", line.report.benches, "JSON of bench, bench tracers or sweep, as charts; may be repeated")
         ->type_name("FILE")
         ->expected(1)
+        ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     report.add_option("--cubemap", line.report.cubemaps, "A cubemap file, to look about in; may be repeated")
         ->type_name("FILE.exr")
         ->expected(1)
+        ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     report.add_flag("--open", line.report.open, "Open it in the browser");
     report.callback([&line] { line.verb = [&line] { return reportRun(line.report); }; });
@@ -229,6 +242,7 @@ void addTools(CLI::App& app, CommandLine& line)
     compile.add_option("--spec", line.compile.specialization, "Value of a specialization constant; may be repeated")
         ->type_name("NAME=VALUE")
         ->expected(1)
+        ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     compile.add_flag("--no-optimize", line.noOptimization, "Leave out the optimiser");
     compile.add_flag("--assembly", line.compile.assembly, "SPIR-V as text also in a file");
@@ -366,11 +380,13 @@ void addSweep(CLI::App& app, CommandLine& line)
     verb.add_option("--set", sweep.overrides, "Another key of the case, for all values; may be repeated")
         ->type_name("KEY=VALUE")
         ->expected(1)
+        ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     verb.add_option("--backend", sweep.backends, "As for run; cpu64 is always there")
         ->type_name("NAME,...")
         ->delimiter(',')
         ->expected(1)
+        ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     verb.add_option("-j,--jobs", sweep.jobs, "Processors to use; default: all available")
         ->type_name("N")
@@ -410,14 +426,28 @@ std::unique_ptr<CLI::App> makeApp(CommandLine& line)
     return app;
 }
 
+// Of a command line without a verb: its first word, and what would be one.
+std::string describeMissingVerb(const CLI::App& app)
+{
+    std::vector<std::string> allowed;
+    for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) {
+        if (!verb->get_group().empty()) allowed.push_back(verb->get_name());
+    }
+    const std::vector<std::string> words = app.remaining();
+    const auto isOption = [](const std::string& word) { return word.starts_with('-'); };
+    const auto word = std::find_if_not(words.begin(), words.end(), isOption);
+    const std::string wrong = word == words.end() ? "a verb is required" : fmt::format("\"{}\" is no verb", *word);
+    return fmt::format("{}; allowed are {}", wrong, fmt::join(allowed, ", "));
+}
+
 // CLI11's texts name the option and what is wrong; what is allowed is in the help.
 int printUsageError(const CLI::App& app, const CLI::ParseError& error)
 {
-    std::string text = error.what();
+    const auto verbs = app.get_subcommands();
+    std::string text = verbs.empty() && error.get_name() == "RequiredError" ? describeMissingVerb(app) : error.what();
     for (char& character : text) {
         if (character == '\n') character = ' ';
     }
-    const auto verbs = app.get_subcommands();
     const std::string help = verbs.empty() ? "crossray --help" : "crossray " + verbs.front()->get_name() + " --help";
     fmt::print(stderr, "crossray: {} (see {})\n", text, help);
     return static_cast<int>(ExitCode::kUsage);

@@ -70,7 +70,7 @@ TEST_F(ReportTest, showsTheTraceThatItIsGiven)
     writeCase("cases/a.toml", "a", "", kFails);
     run("run --backend cpu64");
     writeFile("trace.json", run("trace a --pixel 1,2 --backend cpu64 --json").out);
-    const Outcome outcome = run("report --trace trace.json");
+    const Outcome outcome = run("report --trace trace.json out/last");
     EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_NE(readFile("out/last/report/data/trace-0.js").find("\"trace-0\""), std::string::npos);
     EXPECT_TRUE(exists("out/last/report/data/trace-1.js")); // the run's own

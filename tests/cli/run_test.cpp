@@ -110,6 +110,24 @@ TEST_F(RunTest, usageErrorsAreOneLineAndExitTwo)
     }
 }
 
+TEST_F(RunTest, aWordThatIsNoVerbIsNamed)
+{
+    EXPECT_TRUE(run("frobnicate").err.starts_with("crossray: \"frobnicate\" is no verb; allowed are run, list, "));
+    EXPECT_TRUE(run("").err.starts_with("crossray: a verb is required; allowed are run, list, "));
+    EXPECT_EQ(run("frobnicate").err.find("worker"), std::string::npos);
+}
+
+TEST_F(RunTest, anErrorThatAllBackendsShareIsToldOnce)
+{
+    writeCase("cases/a.toml", "a", "", "output = \"RayDirWS\"\ntruth = \"none\"\ntolerance = { degrees = 1 }\n");
+    const Outcome outcome = run("run --backend cpu32,cpu64 --keep-going");
+    EXPECT_EQ(outcome.exitCode, 2);
+    const size_t first = outcome.out.find("broken: ");
+    ASSERT_NE(first, std::string::npos) << outcome.out;
+    EXPECT_EQ(outcome.out.find("broken: ", first + 1), std::string::npos) << outcome.out;
+    EXPECT_EQ(readRun()["brokenFiles"].size(), 1u);
+}
+
 TEST_F(RunTest, nothingSelectedExitsFourWithTheNearestName)
 {
     writeCase("cases/a.toml", "hiz/two_planes");
@@ -137,9 +155,9 @@ TEST_F(RunTest, selectsByPathNameTagAndExpression)
     const std::vector<std::pair<std::string, int>> selections{
         {"", 3},           {"hiz", 2},           {"cases/hiz", 2},        {"hiz/a", 1},           {"'*/a'", 1},
         {"--tag slow", 1}, {"-k 'not slow'", 2}, {"elsewhere/d.toml", 1}, {"elsewhere hiz/a", 2}, {"'cases/h*'", 2},
-        {"hiz/a hiz", 2}};
+        {"hiz/a hiz", 2},  {"--tag slow hiz", 1}};
     for (const auto& [selection, count] : selections) {
-        const Outcome outcome = run(fmt::format("run {} --backend cpu64 -q", selection));
+        const Outcome outcome = run(fmt::format("run --backend cpu64 {} -q", selection));
         EXPECT_EQ(outcome.lastLine(), fmt::format("{} passed, 0 failed, 0 skipped", count)) << selection << outcome.err;
     }
 }
