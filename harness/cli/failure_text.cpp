@@ -74,20 +74,35 @@ std::string formatNumbers(const ExpectationResult& expectation)
     return text + "tolerance " + expectation.tolerance + "   (" + expectation.source + ")";
 }
 
+// The case as a verb takes it: by name, or by file where it lies outside the case folder, in which names are looked up.
+std::string formatArgument(const CaseResult& testCase, const std::filesystem::path& caseFolder)
+{
+    const std::string& name = testCase.name;
+    const std::string& file = testCase.position.file;
+    if (caseFolder.empty() || file.empty()) return quoteForShell(name);
+    std::error_code failure;
+    const std::filesystem::path below =
+        std::filesystem::relative(std::filesystem::weakly_canonical(file, failure),
+                                  std::filesystem::weakly_canonical(caseFolder, failure), failure);
+    if (!below.empty() && *below.begin() != "..") return quoteForShell(name);
+    return quoteForShell(file + name.substr(std::min(name.find('['), name.size())));
+}
+
 // What to type next: the ray of the worst pixel, beside the backend that it is held against where it is one; else the
 // case once more, with its planes.
-std::string formatCommand(const CaseResult& testCase, const BackendResult& result, const ExpectationResult* worst)
+std::string formatCommand(const CaseResult& testCase, const BackendResult& result, const ExpectationResult* worst,
+                          const std::filesystem::path& caseFolder)
 {
+    const std::string argument = formatArgument(testCase, caseFolder);
     if (worst != nullptr && worst->comparison.worst) {
         const PixelDifference& pixel = *worst->comparison.worst;
         constexpr std::string_view kAgreement = "agree with ";
         const bool isAgreement = worst->source.starts_with(kAgreement);
         const std::string others = isAgreement ? "," + worst->source.substr(kAgreement.size()) : "";
-        return fmt::format("crossray trace {} --pixel {},{} --backend {}", quoteForShell(testCase.name), pixel.x,
-                           pixel.y, quoteForShell(result.backend + others));
+        return fmt::format("crossray trace {} --pixel {},{} --backend {}", argument, pixel.x, pixel.y,
+                           quoteForShell(result.backend + others));
     }
-    return fmt::format("crossray run {} --backend {} --planes all", quoteForShell(testCase.name),
-                       quoteForShell(result.backend));
+    return fmt::format("crossray run {} --backend {} --planes all", argument, quoteForShell(result.backend));
 }
 
 std::string indentLines(const std::string& text)
@@ -126,7 +141,8 @@ std::string formatValues(const std::vector<double>& values, int digits)
     return text + ")";
 }
 
-std::string formatFailure(const CaseResult& testCase, const BackendResult& result, const Style& style, bool all)
+std::string formatFailure(const CaseResult& testCase, const BackendResult& result, const Style& style, bool all,
+                          const std::filesystem::path& caseFolder)
 {
     const std::string label = style.paint(Ink::kRed, labelOf(result.verdict));
     const std::string head = fmt::format("{} {}  {}", label, style.paint(Ink::kBold, testCase.name), result.backend);
@@ -145,7 +161,7 @@ std::string formatFailure(const CaseResult& testCase, const BackendResult& resul
         for (size_t i = skip; i < result.logLines.size(); ++i)
             text += indentLines(result.logLines[i]);
         return text + fmt::format("      {}   {}\n", style.paint(Ink::kDim, testCase.position.format()),
-                                  formatCommand(testCase, result, nullptr));
+                                  formatCommand(testCase, result, nullptr, caseFolder));
     }
 
     std::string text;
@@ -157,7 +173,7 @@ std::string formatFailure(const CaseResult& testCase, const BackendResult& resul
         text += fmt::format("      {}\n", formatNumbers(expectation));
         if (i == 0) {
             text += fmt::format("      {}   {}\n", style.paint(Ink::kDim, expectation.position.format()),
-                                formatCommand(testCase, result, &expectation));
+                                formatCommand(testCase, result, &expectation, caseFolder));
         }
     }
     if (shown < failed.size()) text += fmt::format("      and {} more failed expectations\n", failed.size() - shown);

@@ -4,12 +4,15 @@
 #include "harness/cli/terminal.h"
 #include "harness/run/results.h"
 
+#include <filesystem>
 #include <string>
 
 namespace crossray {
 
-// Several lines, the last with a line break. `all`: every failed expectation, else the worst three.
-std::string formatFailure(const CaseResult& testCase, const BackendResult& result, const Style& style, bool all);
+// Several lines, the last with a line break. `all`: every failed expectation, else the worst three. The command at the
+// end names the case, and one outside `caseFolder` by its file.
+std::string formatFailure(const CaseResult& testCase, const BackendResult& result, const Style& style, bool all,
+                          const std::filesystem::path& caseFolder = {});
 
 // One word for one shell argument.
 std::string quoteForShell(const std::string& text);

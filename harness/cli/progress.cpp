@@ -66,7 +66,7 @@ void Progress::finishBackend(const CaseResult& testCase, const BackendResult& re
             ++repeatedErrors_;
             return;
         }
-        printText(formatFailure(testCase, result, options_.style, options_.verbose));
+        printText(formatFailure(testCase, result, options_.style, options_.verbose, options_.caseFolder));
     } else if (options_.verbose) {
         printText(fmt::format("{:<14} {}  {}  {:.1f} ms{}{}\n", nameOf(result.verdict), testCase.name, result.backend,
                               result.times.worker, result.reason.empty() ? "" : "  ", result.reason));

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <map>
 #include <set>
 #include <string>
@@ -22,7 +23,8 @@ struct ProgressOptions {
     FILE* bar = stderr;
     Style style{false};
     size_t caseCount = 0;
-    size_t resultCount = 0; // verdicts to come
+    size_t resultCount = 0;           // verdicts to come
+    std::filesystem::path caseFolder; // cases outside it are named by their files
 };
 
 // kBar where standard error is a terminal, else kLines.

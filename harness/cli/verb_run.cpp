@@ -189,7 +189,7 @@ int runCases(const GlobalOptions& global, const RunOptions& options)
     RunResult run = describeRun(global, options, cores);
     run.brokenFiles = selected.broken;
     Progress progress({chooseProgress(options.progress), options.quiet, options.verbose, text, stderr, style,
-                       selected.cases.size(), selected.cases.size() * backends.names.size()});
+                       selected.cases.size(), selected.cases.size() * backends.names.size(), folders.cases});
     {
         WorkerOptions workers;
         workers.validation = options.validation;

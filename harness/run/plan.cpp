@@ -56,6 +56,15 @@ bool matchesName(const std::string& argument, const Case& testCase)
     return argument.ends_with('/') || name[argument.size()] == '/' || name[argument.size()] == '[';
 }
 
+// Of "path/a.toml[ior=1.5]" where the path ends, which is a file; else 0.
+size_t findFileOfSubCase(const std::string& argument)
+{
+    const size_t end = argument.find(".toml[") + 5;
+    std::error_code failure;
+    if (end == std::string::npos + 5 || !argument.ends_with(']')) return 0;
+    return fs::is_regular_file(argument.substr(0, end), failure) ? end : 0;
+}
+
 size_t computeEditDistance(std::string_view a, std::string_view b)
 {
     std::vector<size_t> row(b.size() + 1);
@@ -110,6 +119,9 @@ class Planner {
         std::error_code failure;
         if (fs::is_directory(argument, failure)) return addFolder(argument);
         if (fs::exists(argument, failure)) return addFile(argument);
+        if (const size_t end = findFileOfSubCase(argument); end > 0) {
+            return addSubCase(argument.substr(0, end), argument.substr(end));
+        }
         if (argument.ends_with(".toml") && !isGlob(argument)) {
             throw InputError(
                 fmt::format("{}: there is no such file; allowed are case files, folders, names and globs", argument));
@@ -129,6 +141,21 @@ class Planner {
         if (entry.broken) addBroken(*entry.broken);
         for (const Case& testCase : entry.cases)
             addCase(testCase);
+    }
+
+    void addSubCase(const fs::path& file, const std::string& parameters)
+    {
+        const CaseFiles::Entry& entry = files_.read(shortenPath(file));
+        if (entry.broken) return addBroken(*entry.broken);
+        std::vector<std::string> names;
+        for (const Case& testCase : entry.cases) {
+            const size_t bracket = testCase.name.find('[');
+            const std::string own = bracket == std::string::npos ? "" : testCase.name.substr(bracket);
+            if (own == parameters) return addCase(testCase);
+            names.push_back(file.string() + own);
+        }
+        result_.unmatched.push_back(
+            fmt::format("no case of {} has {}; it has {}", file.string(), parameters, fmt::join(names, ", ")));
     }
 
     void addName(const std::string& argument)

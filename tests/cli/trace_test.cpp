@@ -8,10 +8,10 @@ namespace {
 class TraceTest : public CliTest {
   protected:
     // A mirror floor before a wall, marched.
-    void writeMarch(const std::string& name, const std::string& more = "")
+    void writeMarch(const std::string& name, const std::string& more = "", const std::string& folder = "cases")
     {
         writeFile(
-            "cases/" + name + ".toml",
+            folder + "/" + name + ".toml",
             fmt::format("schema = 1\nname = \"{}\"\nsummary = \"A floor of the test.\"\n"
                         "[camera]\neye = [0, 1.5, 3]\ntarget = [0, 0.5, -2]\n"
                         "[scene]\nsize = [16, 16]\nprimitives = [\n"
@@ -65,9 +65,15 @@ TEST_F(TraceTest, jsonHasTheSameRay)
 
 TEST_F(TraceTest, theCommandOfAFailureWorks)
 {
+    // Names are looked up in the case folder alone; what lies elsewhere is named by its file.
     writeMarch("a", "[expand]\ncamera.fov = [50, 60]");
-    const Outcome failed = run("run --backend cpu64");
+    writeMarch("b", "[expand]\ncamera.fov = [50, 60]", "elsewhere");
+    writeMarch("c", "", "elsewhere");
+    const Outcome failed = run("run a elsewhere --backend cpu64");
     ASSERT_EQ(failed.exitCode, 1);
+    EXPECT_NE(failed.out.find("crossray trace 'a[fov=50]' --pixel"), std::string::npos) << failed.out;
+    EXPECT_NE(failed.out.find("crossray trace 'elsewhere/b.toml[fov=60]' --pixel"), std::string::npos) << failed.out;
+    EXPECT_NE(failed.out.find("crossray trace elsewhere/c.toml --pixel"), std::string::npos) << failed.out;
     size_t found = 0;
     for (size_t at = failed.out.find("crossray trace "); at != std::string::npos;
          at = failed.out.find("crossray trace ", at + 1)) {
@@ -78,7 +84,11 @@ TEST_F(TraceTest, theCommandOfAFailureWorks)
         EXPECT_NE(traced.out.find("hit success             hit\n"), std::string::npos) << command << "\n" << traced.out;
         ++found;
     }
-    EXPECT_EQ(found, 2u) << failed.out;
+    EXPECT_EQ(found, 5u) << failed.out;
+    const Outcome absent = run("trace 'elsewhere/b.toml[fov=70]' --pixel 1,1");
+    EXPECT_EQ(absent.exitCode, 4);
+    EXPECT_EQ(absent.err, "crossray: no case of elsewhere/b.toml has [fov=70]; it has elsewhere/b.toml[fov=50], "
+                          "elsewhere/b.toml[fov=60]\n");
 }
 
 TEST_F(TraceTest, errorsAreOneLineAndExitTwo)
