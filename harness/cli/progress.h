@@ -24,7 +24,7 @@ struct ProgressOptions {
     Style style{false};
     size_t caseCount = 0;
     size_t resultCount = 0;           // verdicts to come
-    std::filesystem::path caseFolder; // cases outside it are named by their files
+    std::filesystem::path caseFolder{}; // cases outside it are named by their files
 };
 
 // kBar where standard error is a terminal, else kLines.

@@ -86,7 +86,8 @@ test('the hash holds what differs from the start, and reads back', () => {
 
 test('commands survive a shell and TOML', () => {
   assert.equal(quoteForShell("it's"), "'it'\\''s'");
-  assert.equal(traceCommand('a[b=1]', 3, 4, ['x', 'y']), "crossray trace 'a[b=1]' --pixel 3,4 --backend x,y");
+  assert.equal(traceCommand({ name: 'a[b=1]', file: 'mine/c.toml' }, 3, 4, ['x', 'y']), "crossray trace 'mine/c.toml[b=1]' --pixel 3,4 --backend x,y");
+  assert.equal(traceCommand({ name: 'a', file: 'mine/c.toml' }, 3, 4, ['x'], true), 'crossray trace mine/c.toml --pixel 3,4 --backend x --json');
   assert.equal(acceptCommand('a', 'osmesa', 'out/last'), 'crossray review --run out/last --accept a --backend osmesa');
   assert.match(knownFailureToml(['osmesa'], 'a "b"\nc', '2026-01-31'), /reason {3}= "a \\"b\\""/);
 });

@@ -6,14 +6,20 @@ export function quoteForShell(text) {
   return `'${text.replaceAll("'", "'\\''")}'`;
 }
 
+/** A case as every verb takes it wherever it lies: its file, and which sub-case. A name is looked up in one case folder alone. */
+export function caseArgument({ name, file }) {
+  const bracket = name.indexOf('[');
+  return file ? file + (bracket < 0 ? '' : name.slice(bracket)) : name;
+}
+
 /** Runs the case again and keeps all planes. */
-export function runCommand(caseName, backends) {
-  return `crossray run ${quoteForShell(caseName)} --backend ${quoteForShell(backends.join(','))} --planes all`;
+export function runCommand(item, backends) {
+  return `crossray run ${quoteForShell(caseArgument(item))} --backend ${quoteForShell(backends.join(','))} --planes all`;
 }
 
 /** Shows what the ray of a pixel does. */
-export function traceCommand(caseName, x, y, backends, isJson = false) {
-  const base = `crossray trace ${quoteForShell(caseName)} --pixel ${x},${y} --backend ${quoteForShell(backends.join(','))}`;
+export function traceCommand(item, x, y, backends, isJson = false) {
+  const base = `crossray trace ${quoteForShell(caseArgument(item))} --pixel ${x},${y} --backend ${quoteForShell(backends.join(','))}`;
   return isJson ? `${base} --json` : base;
 }
 

@@ -89,7 +89,7 @@ export function drawHead(box, { item, details, shown, update, filterTag }) {
 /** The command that shows it again, and for a failure what accepts it: a golden by review, else a known failure. */
 export function drawCommands(box, { item, details, shown, index }) {
   const failed = item.results.filter((result) => result.tally === 'failed').map((result) => result.backend);
-  const lines = [commandLine('run again', runCommand(item.name, [shown.backend]))];
+  const lines = [commandLine('run again', runCommand(item, [shown.backend]))];
   const result = details?.backends.find((each) => each.backend === shown.backend);
   const golden = result?.expectations.find((each) => each.source.startsWith('golden ') && (each.missingGolden || !each.comparison?.passed));
   if (golden) {

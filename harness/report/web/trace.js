@@ -143,8 +143,8 @@ export function drawTracePanel(box, context) {
       ? [shown.expectation.source.slice('agree with '.length)] : [];
     redraw(box, title,
       shown.result?.traceNote ? h('p', { class: 'dim' }, `The run kept no trace of the worst pixel: ${shown.result.traceNote}.`) : '',
-      x >= 0 ? commandLine('shows its ray', `${traceCommand(item.name, x, y, [shown.backend, ...partner])}`) : '',
-      x >= 0 ? commandLine('into this report', `${traceCommand(item.name, x, y, [shown.backend, ...partner], true)} > pixel.json && crossray report ${index.runFolder} --trace pixel.json`) : '',
+      x >= 0 ? commandLine('shows its ray', `${traceCommand(item, x, y, [shown.backend, ...partner])}`) : '',
+      x >= 0 ? commandLine('into this report', `${traceCommand(item, x, y, [shown.backend, ...partner], true)} > pixel.json && crossray report ${index.runFolder} --trace pixel.json`) : '',
       fileInput(added),
       others.length > 0 ? h('p', { class: 'dim' }, 'traced: ', others.map(([px, py]) => h('button', { type: 'button', class: 'small', onclick: () => update({ x: px, y: py }) }, `${px}, ${py}`))) : '');
     return;
