@@ -1,5 +1,8 @@
 #include "harness/cli/failure_text.h"
 
+#include "harness/base/outputs.h"
+#include "harness/inspect/names.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -68,8 +71,8 @@ std::string formatNumbers(const ExpectationResult& expectation)
     const Comparison& comparison = expectation.comparison;
     std::string text;
     if (comparison.worst) {
-        text = fmt::format("expected {}  actual {}   ", formatValues(comparison.worst->expected, 6),
-                           formatValues(comparison.worst->actual, 6));
+        text = fmt::format("expected {}  actual {}   ", formatValues(expectation.output, comparison.worst->expected, 6),
+                           formatValues(expectation.output, comparison.worst->actual, 6));
     }
     return text + "tolerance " + expectation.tolerance + "   (" + expectation.source + ")";
 }
@@ -98,7 +101,8 @@ std::string formatCommand(const CaseResult& testCase, const BackendResult& resul
         const PixelDifference& pixel = *worst->comparison.worst;
         constexpr std::string_view kAgreement = "agree with ";
         const bool isAgreement = worst->source.starts_with(kAgreement);
-        const std::string others = isAgreement ? "," + worst->source.substr(kAgreement.size()) : "";
+        std::string others;
+        if (isAgreement) others = fmt::format(",{}", worst->source.substr(kAgreement.size()));
         return fmt::format("crossray trace {} --pixel {},{} --backend {}", argument, pixel.x, pixel.y,
                            quoteForShell(result.backend + others));
     }
@@ -139,6 +143,17 @@ std::string formatValues(const std::vector<double>& values, int digits)
     for (size_t i = 0; i < values.size(); ++i)
         text += fmt::format("{}{:.{}g}", i == 0 ? "" : ", ", values[i], digits);
     return text + ")";
+}
+
+std::string formatValues(std::string_view output, const std::vector<double>& values, int digits)
+{
+    const std::string number = formatValues(values, digits);
+    if (values.size() != 1 || !(values[0] >= 0 && values[0] < 100) || values[0] != std::floor(values[0])) return number;
+    const int index = static_cast<int>(values[0]);
+    if (output == "HitSuccess" && index <= static_cast<int>(HitClass::kUnknown))
+        return fmt::format("{} ({})", nameOf(static_cast<HitClass>(index)), number);
+    if (output == "HitReason") return fmt::format("{} ({})", nameOfReason(index), number);
+    return number;
 }
 
 std::string formatFailure(const CaseResult& testCase, const BackendResult& result, const Style& style, bool all,

@@ -17,7 +17,9 @@ std::string formatFailure(const CaseResult& testCase, const BackendResult& resul
 // One word for one shell argument.
 std::string quoteForShell(const std::string& text);
 
-// "31, 12" and the like: a number as people read it, and a vector in brackets.
+// "31" and the like: a number as people read it, and a vector in brackets.
 std::string formatValues(const std::vector<double>& values, int digits);
+// The same of an output: a hit class or reason by its name too, "miss (2)".
+std::string formatValues(std::string_view output, const std::vector<double>& values, int digits);
 
 } // namespace crossray

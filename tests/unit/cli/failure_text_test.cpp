@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 using namespace crossray;
 
 namespace {
@@ -63,6 +65,22 @@ TEST(FailureText, anAgreementIsTracedBesideWhatItIsHeldAgainst)
     const std::string text = formatFailure(makeCase(), makeResult({expectation}), kPlain, false);
     EXPECT_NE(text.find("crossray trace hiz/two_planes --pixel 31,12 --backend osmesa,cpu64\n"), std::string::npos)
         << text;
+}
+
+TEST(FailureText, classesAndReasonsHaveNames)
+{
+    EXPECT_EQ(formatValues("HitSuccess", {2}, 6), "miss (2)");
+    EXPECT_EQ(formatValues("HitReason", {1}, 6), "iteration cap (1)");
+    EXPECT_EQ(formatValues("HitSuccess", {4}, 6), "4") << "no class";
+    EXPECT_EQ(formatValues("HitSuccess", {0.5}, 6), "0.5");
+    EXPECT_EQ(formatValues("HitSuccess", {std::numeric_limits<double>::quiet_NaN()}, 6), "nan");
+    EXPECT_EQ(formatValues("IterationCount", {2}, 6), "2");
+    EXPECT_EQ(formatValues("RayDirWS", {0, 0, 1}, 6), "(0, 0, 1)");
+    ExpectationResult expectation = makeFailure("HitSuccess", 1);
+    expectation.comparison.worst->expected = {2};
+    expectation.comparison.worst->actual = {1};
+    const std::string text = formatFailure(makeCase(), makeResult({expectation}), kPlain, false);
+    EXPECT_NE(text.find("expected miss (2)  actual hit (1) "), std::string::npos) << text;
 }
 
 TEST(FailureText, withoutAWorstPixelTheCaseIsRunAgain)
