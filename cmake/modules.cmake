@@ -32,7 +32,7 @@ target_sources(crossray_report PRIVATE ${web_source})
 crossray_module(sweep USES inspect)
 crossray_module(cli USES bench inspect report sweep PACKAGES CLI11::CLI11 PNG::PNG)
 # CLI11 is a header of templates that the optimiser spends minutes on, for a command line that is parsed once.
-set_source_files_properties(harness/cli/command_line.cpp PROPERTIES COMPILE_OPTIONS "-O0")
+set_source_files_properties(harness/cli/command_line.cpp harness/cli/command_line_bench.cpp PROPERTIES COMPILE_OPTIONS "-O0")
 
 # The GLSL library in float: 0.5 is a float there, as in GLSL.
 file(GLOB float_shader_units CONFIGURE_DEPENDS harness/backend/cpu/*32.cpp harness/bench/*32.cpp harness/inspect/*32.cpp)

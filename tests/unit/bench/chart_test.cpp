@@ -1,22 +1,12 @@
 #include "harness/bench/chart.h"
 
+#include "tests/unit/count_of.h"
+
 #include <gtest/gtest.h>
 
 #include <limits>
 
 using namespace crossray;
-
-namespace {
-
-size_t count(const std::string& text, const std::string& part)
-{
-    size_t found = 0;
-    for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
-        ++found;
-    return found;
-}
-
-} // namespace
 
 TEST(Chart, TheFrontIsWhatNoPointDominates)
 {
@@ -35,9 +25,9 @@ TEST(Chart, EveryPointIsDrawnAndNamed)
         chart.points.push_back({"method " + std::to_string(i), 1.0 + 3.0 * i, 0.5 / (1 + i)});
     chart.points.push_back({"exact", 100, 0});
     const std::string svg = formatChartSvg(chart);
-    EXPECT_EQ(count(svg, "<circle"), 13U);
+    EXPECT_EQ(countOf(svg, "<circle"), 13U);
     for (const ChartPoint& point : chart.points)
-        EXPECT_EQ(count(svg, ">" + point.name + "<"), 2U) << point.name << ": beside its dot, and under the pointer";
+        EXPECT_EQ(countOf(svg, ">" + point.name + "<"), 2U) << point.name << ": beside its dot, and under the pointer";
     EXPECT_NE(svg.find("A &lt; B &amp; C"), std::string::npos);
     EXPECT_NE(svg.find(">0</text>"), std::string::npos) << "the band of errors of 0";
     EXPECT_EQ(svg.find("nan"), std::string::npos);
@@ -51,21 +41,21 @@ TEST(Chart, NamesThatFindNoPlaceAreNumbered)
         chart.points.push_back({"one of a crowd, " + std::to_string(i), 100 + 0.01 * i, 0.1});
     const std::string svg = formatChartSvg(chart);
     for (const ChartPoint& point : chart.points)
-        EXPECT_EQ(count(svg, ">" + point.name + "<"), 2U) << point.name;
-    const size_t keyed = count(svg, "font-weight=\"bold\"");
+        EXPECT_EQ(countOf(svg, ">" + point.name + "<"), 2U) << point.name;
+    const size_t keyed = countOf(svg, "font-weight=\"bold\"");
     EXPECT_GT(keyed, 8U);
     for (size_t i = 1; i <= keyed; ++i) {
-        EXPECT_EQ(count(svg, "\"stroke\">" + std::to_string(i) + "</text>"), 1U) << i << " beside its dot";
-        EXPECT_EQ(count(svg, "\"bold\">" + std::to_string(i) + "</tspan>"), 1U) << i << " in the key";
+        EXPECT_EQ(countOf(svg, "\"stroke\">" + std::to_string(i) + "</text>"), 1U) << i << " beside its dot";
+        EXPECT_EQ(countOf(svg, "\"bold\">" + std::to_string(i) + "</tspan>"), 1U) << i << " in the key";
     }
-    EXPECT_EQ(count(svg, "width=\"880\""), 0U) << "the key has a column of its own";
+    EXPECT_EQ(countOf(svg, "width=\"880\""), 0U) << "the key has a column of its own";
 }
 
 TEST(Chart, AChartOfNothingAndOfOnePointAreCharts)
 {
     EXPECT_NE(formatChartSvg({"id", "empty", "", "", {}}).find("</svg>"), std::string::npos);
     const std::string one = formatChartSvg({"id", "one", "", "", {{"only", 1, 0}}});
-    EXPECT_EQ(count(one, "<circle"), 1U);
+    EXPECT_EQ(countOf(one, "<circle"), 1U);
     EXPECT_EQ(one.find("nan"), std::string::npos);
 }
 
@@ -77,9 +67,9 @@ TEST(Chart, CurvesAreNamedOnceAndHaveNoFront)
         chart.points.push_back({"two", x, 0.1 * x}); // on the same line
     }
     const std::string svg = formatChartSvg(chart);
-    EXPECT_EQ(count(svg, "<circle"), 6U);
-    EXPECT_EQ(count(svg, ">one<"), 1U);
-    EXPECT_EQ(count(svg, ">two<"), 1U);
+    EXPECT_EQ(countOf(svg, "<circle"), 6U);
+    EXPECT_EQ(countOf(svg, ">one<"), 1U);
+    EXPECT_EQ(countOf(svg, ">two<"), 1U);
     EXPECT_EQ(formatChartsCsv(std::vector<Chart>{chart}).find(",1,0\n"), std::string::npos) << "no front";
 }
 
@@ -95,5 +85,5 @@ TEST(Chart, NumbersComeAsCsvAndJson)
 TEST(Chart, AReliabilityDiagramHasADotABin)
 {
     const std::vector<ReliabilitySeries> series{{"a", {{0.5, 0.4, 100}, {0.9, 0.95, 10}}}, {"b", {{0.7, 0.7, 1}}}};
-    EXPECT_EQ(count(formatReliabilitySvg("t", series), "fill-opacity"), 3U);
+    EXPECT_EQ(countOf(formatReliabilitySvg("t", series), "fill-opacity"), 3U);
 }

@@ -2,24 +2,13 @@
 
 #include "harness/base/error.h"
 #include "tests/unit/compile/shader_folder.h"
+#include "tests/unit/count_of.h"
 
 #include <gtest/gtest.h>
 
 #include <thread>
 
 using namespace crossray;
-
-namespace {
-
-size_t countOf(const std::string& text, const std::string& part)
-{
-    size_t count = 0;
-    for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
-        ++count;
-    return count;
-}
-
-} // namespace
 
 TEST(Compile, givesSpirvAndGlslWithTheBindingsOfTheSource)
 {

@@ -4,6 +4,7 @@
 #include "harness/report/page.h"
 #include "harness/report/plane_data.h"
 #include "harness/scene/exr.h"
+#include "tests/unit/count_of.h"
 #include "tests/unit/report/report_fixture.h"
 
 #include <fmt/format.h>
@@ -32,14 +33,6 @@ nlohmann::json readScript(const std::string& script)
 {
     const size_t comma = script.find(", ");
     return nlohmann::json::parse(script.substr(comma + 2, script.rfind(");") - comma - 2));
-}
-
-size_t countOf(const std::string& text, const std::string& part)
-{
-    size_t count = 0;
-    for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
-        ++count;
-    return count;
 }
 
 } // namespace
