@@ -307,6 +307,12 @@ void judgeMethod(const Measuring& with, const BenchMethod& method, const Runner&
 
 } // namespace
 
+std::string effectNameOf(const Case& testCase)
+{
+    if (const BenchFamily* const family = findBenchFamily(testCase.benchFamily)) return family->name;
+    return testCase.effect == TraceEffect::kReflection ? "reflection" : "refraction";
+}
+
 BenchScene benchCase(const Case& testCase, const BenchOptions& options, WorkerPool& pool, ShaderCompiler& compiler,
                      const Folders& folders)
 {
@@ -315,7 +321,7 @@ BenchScene benchCase(const Case& testCase, const BenchOptions& options, WorkerPo
     BenchScene scene;
     scene.name = testCase.name;
     const BenchFamily* const family = findBenchFamily(testCase.benchFamily);
-    scene.effect = family != nullptr ? family->name : isReflection ? "reflection" : "refraction";
+    scene.effect = effectNameOf(testCase);
     scene.parameter = testCase.material.roughness;
     scene.needs = testCase.needs;
     scene.budget = testCase.budget;

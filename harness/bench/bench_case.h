@@ -47,6 +47,9 @@ struct BenchPoint {
     BenchTime time;
 };
 
+// What a BenchScene of the case calls its effect.
+std::string effectNameOf(const Case& testCase);
+
 struct BenchScene {
     std::string name;     // of the case
     std::string effect;   // "reflection" or "refraction"; of the other families their name

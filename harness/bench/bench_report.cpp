@@ -3,6 +3,7 @@
 #include "harness/bench/family.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -107,6 +108,17 @@ std::vector<BudgetTerm> parseBudget(const std::string& text)
         begin = end + 1;
     }
     return terms;
+}
+
+void checkBudget(const std::vector<BudgetTerm>& budget, const Case& testCase)
+{
+    const std::vector<std::string>& known = errorNames(effectNameOf(testCase));
+    for (const BudgetTerm& term : budget) {
+        if (std::find(known.begin(), known.end(), term.error) == known.end()) {
+            throw InputError(fmt::format("budget: {} has no error \"{}\"; allowed are {}", testCase.name, term.error,
+                                         fmt::join(known, ", ")));
+        }
+    }
 }
 
 const BenchPoint* chooseMethod(const BenchScene& scene, const std::vector<BudgetTerm>& budget)

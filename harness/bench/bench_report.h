@@ -15,6 +15,9 @@ struct BudgetTerm {
 // Throws InputError with what is allowed.
 std::vector<BudgetTerm> parseBudget(const std::string& text);
 
+// Throws InputError where measuring the case gives no such error: before it is measured.
+void checkBudget(const std::vector<BudgetTerm>& budget, const Case& testCase);
+
 // The cheapest method of a scene that keeps the budget: by reads a ray, then by iterations, and where these are equal
 // (or unknown, as for refractions) the first in the order of the list, which goes from less work to more. Nothing when
 // none keeps it. Throws InputError when the scene's methods have no such error.

@@ -129,7 +129,8 @@ void addInspection(CLI::App& app, CommandLine& line)
         ->delimiter(',')
         ->expected(1)
         ->allow_extra_args(false);
-    show.add_option("--image", line.show.image, "Run the case and draw its debug modes, on the first backend named")
+    show.add_option("--image", line.show.image,
+                    "Run the case and draw its debug modes, on the first backend named; - for the terminal alone")
         ->type_name("FILE.png");
     show.add_option("--panels", line.show.panels, "Of the picture, by name; default: all")
         ->type_name("NAME,...")

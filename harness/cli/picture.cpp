@@ -4,6 +4,7 @@
 #include "harness/compile/compile.h"
 #include "harness/pass/pass.h"
 #include "harness/run/execute.h"
+#include "harness/run/plane_files.h"
 #include "harness/run/steps.h"
 #include "harness/run/worker_pool.h"
 
@@ -94,7 +95,7 @@ Panel encodePanel(const Plane& plane)
     return panel;
 }
 
-void writePicture(const std::filesystem::path& file, std::span<const Panel> panels, int columns, int panelWidth)
+Picture composePicture(std::span<const Panel> panels, int columns, int panelWidth)
 {
     constexpr int kGap = 6;
     constexpr unsigned char kBackground = 40;
@@ -103,35 +104,50 @@ void writePicture(const std::filesystem::path& file, std::span<const Panel> pane
     const int cellWidth = panels[0].width * scale + kGap;
     const int cellHeight = panels[0].height * scale + kGap;
     const int rows = (static_cast<int>(panels.size()) + columns - 1) / columns;
-    const int width = cellWidth * std::min(columns, static_cast<int>(panels.size())) + kGap;
-    const int height = cellHeight * rows + kGap;
-    std::vector<unsigned char> pixels(static_cast<size_t>(width) * static_cast<size_t>(height) * 3, kBackground);
+    Picture picture;
+    picture.columns = std::min(columns, static_cast<int>(panels.size()));
+    picture.width = cellWidth * picture.columns + kGap;
+    picture.height = cellHeight * rows + kGap;
+    picture.rgb.assign(static_cast<size_t>(picture.width) * static_cast<size_t>(picture.height) * 3, kBackground);
     for (size_t index = 0; index < panels.size(); ++index) {
         const Panel& panel = panels[index];
+        picture.names.push_back(panel.name);
         const int left = kGap + cellWidth * (static_cast<int>(index) % columns);
         const int top = kGap + cellHeight * (static_cast<int>(index) / columns);
         for (int y = 0; y < panel.height * scale; ++y) {
             for (int x = 0; x < panel.width * scale; ++x) {
                 const auto source = static_cast<size_t>((y / scale) * panel.width + x / scale) * 3;
-                const auto target =
-                    (static_cast<size_t>(top + y) * static_cast<size_t>(width) + static_cast<size_t>(left + x)) * 3;
+                const auto target = (static_cast<size_t>(top + y) * static_cast<size_t>(picture.width) +
+                                     static_cast<size_t>(left + x)) *
+                                    3;
                 std::copy_n(panel.rgb.begin() + static_cast<std::ptrdiff_t>(source), 3,
-                            pixels.begin() + static_cast<std::ptrdiff_t>(target));
+                            picture.rgb.begin() + static_cast<std::ptrdiff_t>(target));
             }
         }
     }
+    return picture;
+}
 
+std::string encodePng(const Picture& picture)
+{
     png_image image{};
     image.version = PNG_IMAGE_VERSION;
-    image.width = static_cast<png_uint_32>(width);
-    image.height = static_cast<png_uint_32>(height);
+    image.width = static_cast<png_uint_32>(picture.width);
+    image.height = static_cast<png_uint_32>(picture.height);
     image.format = PNG_FORMAT_RGB;
-    // Beside the target, then renamed: the file is whole or absent.
-    const std::filesystem::path aside = file.string() + ".part";
-    if (!png_image_write_to_file(&image, aside.c_str(), 0, pixels.data(), 0, nullptr)) {
-        throw InputError(fmt::format("{}: cannot be written: {}", file.string(), image.message));
+    png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
+    std::string bytes(size, '\0');
+    if (!png_image_write_to_memory(&image, bytes.data(), &size, 0, picture.rgb.data(), 0, nullptr)) {
+        throw InputError(
+            fmt::format("a picture of {}x{} cannot be written: {}", picture.width, picture.height, image.message));
     }
-    std::filesystem::rename(aside, file);
+    bytes.resize(size);
+    return bytes;
+}
+
+void writePng(const std::filesystem::path& file, const Picture& picture)
+{
+    writeFileWhole(file, encodePng(picture));
 }
 
 namespace {
@@ -196,8 +212,8 @@ DrawnAnswer askBackend(const Case& drawn, const std::string& backend, const Fold
 
 } // namespace
 
-std::vector<std::string> drawCase(const Case& testCase, const std::string& backend, const Folders& folders,
-                                  const std::filesystem::path& file, std::span<const std::string> names)
+Picture drawCase(const Case& testCase, const std::string& backend, const Folders& folders,
+                 std::span<const std::string> names)
 {
     Case drawn = testCase;
     drawn.outputs.clear();
@@ -224,15 +240,10 @@ std::vector<std::string> drawCase(const Case& testCase, const std::string& backe
     }
     panels = choosePanels(std::move(panels), names);
     constexpr int kColumns = 3;
-    writePicture(file, panels, kColumns, kPanelWidth);
-    std::vector<std::string> drawnNames;
-    for (const Panel& panel : panels)
-        drawnNames.push_back(panel.name);
-    return drawnNames;
+    return composePicture(panels, kColumns, kPanelWidth);
 }
 
-std::vector<std::string> drawDebugMode(const Case& testCase, const DebugMode& mode, const std::string& backend,
-                                       const Folders& folders, const std::filesystem::path& file)
+Picture drawDebugMode(const Case& testCase, const DebugMode& mode, const std::string& backend, const Folders& folders)
 {
     requireRecorded(mode, testCase);
     Case drawn = testCase;
@@ -253,8 +264,7 @@ std::vector<std::string> drawDebugMode(const Case& testCase, const DebugMode& mo
         }
     }
     const Panel panels[] = {panel};
-    writePicture(file, panels, 1, kPanelWidth);
-    return {panel.name};
+    return composePicture(panels, 1, kPanelWidth);
 }
 
 } // namespace crossray

@@ -1,4 +1,5 @@
-// A picture of what a case computes: the scene and the debug modes in their display encodings, side by side, as PNG.
+// A picture of what a case computes: the scene and the debug modes in their display encodings, side by side: as PNG, or
+// for a terminal.
 #pragma once
 
 #include "harness/base/plane.h"
@@ -23,18 +24,28 @@ struct Panel {
 // HitSuccess green, blue or black, counts by their maximum; colours are linear radiance shown as sRGB.
 Panel encodePanel(const Plane& plane);
 
+// Panels in a grid, three bytes a pixel.
+struct Picture {
+    int width = 0, height = 0;
+    std::vector<unsigned char> rgb;
+    std::vector<std::string> names; // of the panels, row by row
+    int columns = 1;
+};
+
 // Panels in a grid of `columns`, each blown up by the same whole factor to at least `panelWidth` pixels.
-void writePicture(const std::filesystem::path& file, std::span<const Panel> panels, int columns, int panelWidth);
+Picture composePicture(std::span<const Panel> panels, int columns, int panelWidth);
+std::string encodePng(const Picture& picture);
+// The file is whole or as it was. Throws InputError.
+void writePng(const std::filesystem::path& file, const Picture& picture);
 
 // Runs the case on one backend and draws the scene and its outputs, before them, for a case with a hierarchy, the
-// frame: the scene with what the rays found on the pixels that trace. `names` picks panels; empty: all. Returns the
-// panels' names in order. Throws EnvironmentError, ShaderError, InputError.
-std::vector<std::string> drawCase(const Case& testCase, const std::string& backend, const Folders& folders,
-                                  const std::filesystem::path& file, std::span<const std::string> names);
+// frame: the scene with what the rays found on the pixels that trace. `names` picks panels; empty: all.
+// Throws EnvironmentError, ShaderError, InputError.
+Picture drawCase(const Case& testCase, const std::string& backend, const Folders& folders,
+                 std::span<const std::string> names);
 
 // One debug mode alone, in the shader library's display encoding; None draws the scene. Throws InputError where the
 // case does not record it.
-std::vector<std::string> drawDebugMode(const Case& testCase, const DebugMode& mode, const std::string& backend,
-                                       const Folders& folders, const std::filesystem::path& file);
+Picture drawDebugMode(const Case& testCase, const DebugMode& mode, const std::string& backend, const Folders& folders);
 
 } // namespace crossray

@@ -5,6 +5,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 namespace crossray {
@@ -28,6 +29,12 @@ int codeOf(Ink ink)
         return 1;
     }
     return 0;
+}
+
+// Of UTF-8: the other bytes of a character go on with it.
+bool startsCharacter(char byte)
+{
+    return (static_cast<unsigned char>(byte) & 0xc0) != 0x80;
 }
 
 } // namespace
@@ -60,13 +67,33 @@ int terminalWidth(int fileDescriptor)
     return 80;
 }
 
+std::string wrap(std::string_view text, int width, int indent)
+{
+    std::string wrapped;
+    int column = 0;
+    for (size_t begin = 0; begin <= text.size();) {
+        const size_t end = std::min(text.find(' ', begin), text.size());
+        const std::string_view word = text.substr(begin, end - begin);
+        const auto columns = static_cast<int>(std::count_if(word.begin(), word.end(), startsCharacter));
+        if (begin > 0) {
+            const bool breaks = column + 1 + columns > width;
+            wrapped += breaks ? '\n' : ' ';
+            if (breaks) wrapped.append(static_cast<size_t>(indent), ' ');
+            column = breaks ? 0 : column + 1;
+        }
+        wrapped += word;
+        column += columns;
+        begin = end + 1;
+    }
+    return wrapped;
+}
+
 std::string clip(std::string_view text, int width)
 {
-    const auto isStart = [](char byte) { return (static_cast<unsigned char>(byte) & 0xc0) != 0x80; };
     int columns = 0;
     size_t keep = 0; // bytes that leave room for the dots
     for (size_t i = 0; i < text.size(); ++i) {
-        if (!isStart(text[i])) continue;
+        if (!startsCharacter(text[i])) continue;
         if (columns == width - 3) keep = i;
         if (++columns > width) return std::string(text.substr(0, keep)) + "...";
     }

@@ -61,7 +61,10 @@ int benchCases(const GlobalOptions& global, const BenchCasesOptions& options)
     selection.arguments = options.cases;
     const SelectedCases selected = selectCases(selection, folders.cases, "", false);
     if (selected.exitCode) return static_cast<int>(*selected.exitCode);
-    if (!options.budget.empty()) parseBudget(options.budget); // before minutes are spent
+    if (!options.budget.empty()) { // before minutes are spent
+        for (const Case& testCase : selected.cases)
+            checkBudget(parseBudget(options.budget), testCase);
+    }
 
     std::vector<BenchMethod> own;
     for (const std::string& method : options.methods)

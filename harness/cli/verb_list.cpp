@@ -33,8 +33,14 @@ int listCases(const GlobalOptions& global, const SelectionOptions& selection, bo
         for (const Case& testCase : selected.cases)
             widest = std::max(widest, std::min<size_t>(testCase.name.size(), 48));
         std::string text;
-        for (const Case& testCase : selected.cases)
-            text += fmt::format("{:<{}}  {}\n", testCase.name, widest, style.paint(Ink::kDim, testCase.summary));
+        const bool isWrapped = isTerminal(STDOUT_FILENO); // a pipe gets a line a case
+        const int width = terminalWidth(STDOUT_FILENO) - static_cast<int>(widest) - 2;
+        for (const Case& testCase : selected.cases) {
+            const std::string summary = isWrapped && width >= 20
+                                            ? wrap(testCase.summary, width, static_cast<int>(widest) + 2)
+                                            : testCase.summary;
+            text += fmt::format("{:<{}}  {}\n", testCase.name, widest, style.paint(Ink::kDim, summary));
+        }
         fmt::print("{}", text);
     }
     return static_cast<int>(selected.broken.empty() ? ExitCode::kAsExpected : ExitCode::kUsage);

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <filesystem>
 #include <future>
 #include <map>
 #include <random>
@@ -167,6 +168,11 @@ RunResult describeRun(const GlobalOptions& global, const RunOptions& options, in
 int runCases(const GlobalOptions& global, const RunOptions& options)
 {
     const Folders folders = findFolders(global.shaders, global.cases, global.cache);
+    if (std::error_code failure;
+        std::filesystem::exists(options.output, failure) && !std::filesystem::is_directory(options.output, failure)) {
+        throw InputError(
+            fmt::format("--output {}: that is a file; allowed is a folder, or what is not there yet", options.output));
+    }
     SelectedCases selected = selectCases(options.selection, folders.cases, options.output, options.keepGoing);
     if (selected.exitCode) return static_cast<int>(*selected.exitCode);
     orderCases(selected.cases, options.seed);

@@ -1,6 +1,6 @@
-#include "harness/cli/picture.h"
-#include "harness/cli/verbs.h"
 #include "harness/cli/show_color.h"
+#include "harness/cli/terminal_picture.h"
+#include "harness/cli/verbs.h"
 #include "harness/compile/source.h"
 #include "harness/expect/planar_diagnosis.h"
 #include "harness/run/case_flight.h"
@@ -223,7 +223,9 @@ void printBackends(const Case& testCase, const std::vector<std::string>& wanted)
 
 void printCase(const Case& testCase, const ShowOptions& options, const Style& style)
 {
-    fmt::print("{}\n{}\n", style.paint(Ink::kBold, testCase.name), testCase.summary);
+    const bool isWrapped = isTerminal(STDOUT_FILENO);
+    fmt::print("{}\n{}\n", style.paint(Ink::kBold, testCase.name),
+               isWrapped ? wrap(testCase.summary, terminalWidth(STDOUT_FILENO), 0) : testCase.summary);
     fmt::print("file       {}\n", testCase.position.file.empty() ? testCase.file.string() : testCase.position.format());
     if (!testCase.tags.empty()) fmt::print("tags       {}\n", fmt::join(testCase.tags, ", "));
     printScene(testCase);
@@ -254,31 +256,43 @@ void printCase(const Case& testCase, const ShowOptions& options, const Style& st
 
 int showCase(const GlobalOptions& global, const ShowOptions& options)
 {
-    if (!options.image.empty() && !options.image.ends_with(".png")) {
-        throw InputError(fmt::format("--image {}: allowed is FILE.png", options.image));
+    const bool isTerminalAlone = options.image == "-";
+    if (!options.image.empty() && !isTerminalAlone && !options.image.ends_with(".png")) {
+        throw InputError(fmt::format("--image {}: allowed is FILE.png, or - for the terminal alone", options.image));
+    }
+    if (options.image.empty() && !options.debugMode.empty()) {
+        throw InputError("--debug-mode draws a picture: it needs --image FILE.png");
     }
     const Folders folders = findFolders(global.shaders, global.cases, global.cache);
     const SelectedCases selected = selectCases({{options.testCase}, {}, {}, {}, false}, folders.cases, {}, false);
     if (selected.exitCode) return static_cast<int>(*selected.exitCode);
+    if (!options.image.empty() && selected.cases.size() > 1) {
+        throw InputError(fmt::format("--image draws one case; \"{}\" means {}, the first of them \"{}\"",
+                                     options.testCase, selected.cases.size(), selected.cases.front().name));
+    }
     const Style style = Style::choose(global.color, STDOUT_FILENO);
+    const PictureProtocol protocol = choosePictureProtocol(style.isColored());
+    if (isTerminalAlone && protocol == PictureProtocol::kNone) {
+        throw InputError("--image -: standard output is no terminal with colours; allowed are --image FILE.png, and "
+                         "--color always");
+    }
     bool isFirst = true;
     for (const Case& testCase : selected.cases) {
         if (!isFirst) fmt::print("\n");
         isFirst = false;
         printCase(testCase, options, style);
     }
-    if (options.image.empty() && !options.debugMode.empty()) {
-        throw InputError("--debug-mode draws a picture: it needs --image FILE.png");
-    }
-    if (!options.image.empty()) {
-        const std::string backend = options.backends.empty() ? "lavapipe" : options.backends.front();
-        const Case& drawn = selected.cases.front();
-        const std::vector<std::string> panels =
-            options.debugMode.empty()
-                ? drawCase(drawn, backend, folders, options.image, options.panels)
-                : drawDebugMode(drawn, findDebugMode(options.debugMode), backend, folders, options.image);
-        fmt::print("image      {}: {} ({})\n", options.image, fmt::join(panels, ", "), backend);
-    }
+    if (options.image.empty()) return static_cast<int>(ExitCode::kAsExpected);
+
+    const std::string backend = options.backends.empty() ? "lavapipe" : options.backends.front();
+    const Case& drawn = selected.cases.front();
+    const Picture picture = options.debugMode.empty()
+                                ? drawCase(drawn, backend, folders, options.panels)
+                                : drawDebugMode(drawn, findDebugMode(options.debugMode), backend, folders);
+    if (!isTerminalAlone) writePng(options.image, picture);
+    fmt::print("image      {}{} ({})\n", isTerminalAlone ? "" : options.image + ": ", fmt::join(picture.names, ", "),
+               backend);
+    fmt::print("{}", formatPicture(picture, protocol, terminalWidth(STDOUT_FILENO)));
     return static_cast<int>(ExitCode::kAsExpected);
 }
 

@@ -86,6 +86,10 @@ std::vector<GBufferChannel> channelsFor(const Case& testCase);
 // source cannot answer for, a closed form or a truth that the case's data cannot give, a golden of another shape.
 std::optional<Plane> makeExpected(const CaseData& data, const Expectation& expectation);
 
+// What of makeExpected()'s errors can be known before anything is computed: names of closed forms and truths, outputs
+// that they cannot answer for, cases that they do not fit. Throws InputError.
+void checkSources(const Case& testCase);
+
 // The pixels that the expectation speaks of, less those for which its source has no answer: where the truth has no ray
 // there is no direction, origin or path. `hitSuccess` is the backend's own output, for Where::kHits and
 // kAnswerableHits: throws InputError when it is needed and missing.

@@ -33,7 +33,7 @@ const Quantity& findQuantity(const std::vector<Quantity>& table, std::string_vie
                      fmt::format("unknown {} \"{}\"; allowed are {}", key, name, fmt::join(names, ", ")));
 }
 
-void checkOutput(const CaseData& data, const Quantity& quantity, std::string_view key, const Expectation& expectation)
+void checkOutput(const Case& testCase, const Quantity& quantity, std::string_view key, const Expectation& expectation)
 {
     const auto output = static_cast<Output>(expectation.output.id);
     if (std::find(quantity.outputs.begin(), quantity.outputs.end(), output) == quantity.outputs.end()) {
@@ -41,7 +41,7 @@ void checkOutput(const CaseData& data, const Quantity& quantity, std::string_vie
                          fmt::format("{} \"{}\" says nothing about {}; allowed are {}", key, quantity.info.name,
                                      expectation.output.name, fmt::join(quantity.info.outputs, ", ")));
     }
-    const std::string refusal = quantity.refuse ? quantity.refuse(data.testCase(), output) : std::string();
+    const std::string refusal = quantity.refuse ? quantity.refuse(testCase, output) : std::string();
     if (!refusal.empty()) {
         throw InputError(expectation.position, fmt::format("{} \"{}\": {}", key, quantity.info.name, refusal));
     }
@@ -136,7 +136,7 @@ Plane makePlane(const CaseData& data, const OutputInfo& output)
 
 Plane computePlane(const CaseData& data, const Quantity& quantity, std::string_view key, const Expectation& expectation)
 {
-    checkOutput(data, quantity, key, expectation);
+    checkOutput(data.testCase(), quantity, key, expectation);
     QuantityInput input{data, data.testCase(), CameraFrame(data.testCase().camera), &data.surfaces(), nullptr};
     if (quantity.needsTruth && quantity.needsTruth(data.testCase())) input.truth = &data.truth();
     Plane plane = makePlane(data, expectation.output);
@@ -223,6 +223,20 @@ std::span<const ClosedForm> truthQuantities()
 {
     static const std::vector<ClosedForm> infos = infosOf(truthTable());
     return infos;
+}
+
+void checkSources(const Case& testCase)
+{
+    for (const Expectation& expectation : testCase.expectations) {
+        if (const auto* analytic = std::get_if<AnalyticSource>(&expectation.source)) {
+            const std::string_view key = "closed form";
+            checkOutput(testCase, findQuantity(analyticQuantities(), key, analytic->function, expectation), key,
+                        expectation);
+        } else if (const auto* truth = std::get_if<TruthSource>(&expectation.source)) {
+            const std::string_view key = "truth";
+            checkOutput(testCase, findQuantity(truthTable(), key, truth->quantity, expectation), key, expectation);
+        }
+    }
 }
 
 std::optional<Plane> makeExpected(const CaseData& data, const Expectation& expectation)

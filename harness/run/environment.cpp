@@ -38,7 +38,7 @@ fs::path findFolder(const std::string& given, const char* variable, const std::s
     std::error_code failure;
     if (!chosen.empty()) {
         if (fs::is_directory(chosen, failure)) return chosen;
-        throw EnvironmentError(
+        throw InputError(
             fmt::format("{}: there is no such folder; --{} or {} names the folder {}/", chosen, name, variable, name));
     }
     for (const fs::path& candidate : {fs::path(CROSSRAY_SOURCE_DIR) / name, findInstalled(name)}) {

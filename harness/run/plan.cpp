@@ -1,5 +1,7 @@
 #include "harness/run/plan.h"
 
+#include "harness/expect/expect.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -27,7 +29,10 @@ class CaseFiles {
         const auto [place, isNew] = entries_.try_emplace(key);
         if (!isNew) return place->second;
         try {
-            place->second.cases = readCaseFile(file);
+            std::vector<Case> cases = readCaseFile(file);
+            for (const Case& testCase : cases)
+                checkSources(testCase);
+            place->second.cases = std::move(cases);
         } catch (const InputError& error) {
             place->second.broken = BrokenFile{file, error.what()};
         }

@@ -119,7 +119,8 @@ TEST_F(RunTest, aWordThatIsNoVerbIsNamed)
 
 TEST_F(RunTest, anErrorThatAllBackendsShareIsToldOnce)
 {
-    writeCase("cases/a.toml", "a", "", "output = \"RayDirWS\"\ntruth = \"none\"\ntolerance = { degrees = 1 }\n");
+    writeFile("cases/a.exr", "no picture");
+    writeCase("cases/a.toml", "a", "", "output = \"RayDirWS\"\ngolden = \"a.exr\"\ntolerance = { degrees = 1 }\n");
     const Outcome outcome = run("run --backend cpu32,cpu64 --keep-going");
     EXPECT_EQ(outcome.exitCode, 2);
     const size_t first = outcome.out.find("broken: ");
