@@ -76,6 +76,15 @@ if(cli_test_sources AND TARGET crossray)
   add_dependencies(test_program crossray)
 endif()
 
+# The pages in a browser that node drives; the script says what is missing where they are skipped.
+file(GLOB browser_tests CONFIGURE_DEPENDS RELATIVE ${CMAKE_SOURCE_DIR}/tests/web/browser tests/web/browser/*.test.mjs)
+foreach(file ${browser_tests})
+  string(REPLACE .test.mjs "" name ${file})
+  add_test(NAME browser.${name} COMMAND ${CMAKE_SOURCE_DIR}/tests/web/browser/run.sh ${CMAKE_BINARY_DIR} ${file})
+  set_tests_properties(browser.${name} PROPERTIES TIMEOUT 300 SKIP_RETURN_CODE 77)
+endforeach()
+set_tests_properties(browser.speed PROPERTIES RUN_SERIAL ON) # it holds times to bounds
+
 # The installed library, as somebody else's project builds with it.
 add_test(NAME consumer.buildsAShaderFromTheInstalledLibrary
          COMMAND ${CMAKE_COMMAND} -D BUILD=${CMAKE_BINARY_DIR} -D CONSUMER=${CMAKE_SOURCE_DIR}/tests/consumer
