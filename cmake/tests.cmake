@@ -91,3 +91,9 @@ add_test(NAME consumer.buildsAShaderFromTheInstalledLibrary
                  -D SCRATCH=${CMAKE_BINARY_DIR}/consumer -D VERSION=${PROJECT_VERSION}
                  -P ${CMAKE_SOURCE_DIR}/tests/consumer/check.cmake)
 set_tests_properties(consumer.buildsAShaderFromTheInstalledLibrary PROPERTIES TIMEOUT 120)
+
+# The Debian package, as somebody installs it.
+add_test(NAME consumer.theDebianPackageHoldsAToolThatRuns
+         COMMAND ${CMAKE_COMMAND} -D BUILD=${CMAKE_BINARY_DIR} -D CPACK=${CMAKE_CPACK_COMMAND} -D SCRATCH=${CMAKE_BINARY_DIR}/deb
+                 -D VERSION=${PROJECT_VERSION} -P ${CMAKE_SOURCE_DIR}/tests/consumer/check_deb.cmake)
+set_tests_properties(consumer.theDebianPackageHoldsAToolThatRuns PROPERTIES TIMEOUT 300)

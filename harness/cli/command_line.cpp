@@ -1,6 +1,7 @@
 #include "harness/cli/command_line.h"
 
 #include "harness/cli/command_line_parts.h"
+#include "harness/cli/manual.h"
 #include "harness/run/environment.h"
 
 #include <fmt/format.h>
@@ -29,6 +30,9 @@ void addSelection(CLI::App& verb, SelectionOptions& selection)
 }
 
 namespace {
+
+int printManual();
+int printCompletion(const std::string& shell);
 
 template <typename Enum>
 CLI::Option* addChoice(CLI::App& app, const std::string& name, Enum& value, const std::map<std::string, Enum>& choices,
@@ -232,6 +236,13 @@ void addTools(CLI::App& app, CommandLine& line)
     CLI::App& doctor = *app.add_subcommand("doctor", "Show which backends, compilers and folders are there");
     doctor.callback([&line] { line.verb = [&line] { return diagnose(line.global); }; });
 
+    CLI::App& manual = *app.add_subcommand("manual", "Print the man page, as roff");
+    manual.callback([&line] { line.verb = [] { return printManual(); }; });
+
+    CLI::App& completion = *app.add_subcommand("completion", "Print a shell's completion script");
+    completion.add_option("shell", line.shell, "Which shell it is for")->type_name("bash|zsh|fish")->required();
+    completion.callback([&line] { line.verb = [&line] { return printCompletion(line.shell); }; });
+
     CLI::App& worker = *app.add_subcommand("worker", "Serve one backend; started by run")->group("");
     worker.add_option("--backend", line.workerBackend)->required();
     worker.add_option("--request-fd", line.requestFd)->required();
@@ -317,6 +328,55 @@ int runCommandLine(int argc, const char* const* argv)
         fmt::print(stderr, "crossray: {}\n", error.what());
         return static_cast<int>(ExitCode::kEnvironment);
     }
+}
+
+namespace {
+
+CommandDescription describe(const CLI::App& app)
+{
+    CommandDescription command{app.get_name(), app.get_description(), {}, {}};
+    for (const CLI::Option* option : app.get_options()) {
+        OptionDescription& described = command.options.emplace_back();
+        for (const std::string& name : option->get_snames())
+            described.names.push_back("-" + name);
+        for (const std::string& name : option->get_lnames())
+            described.names.push_back("--" + name);
+        described.value = option->get_expected_max() > 0 ? option->get_type_name() : "";
+        described.text = option->get_description();
+        described.isRequired = option->get_required();
+        described.isHidden = option->get_group().empty();
+        described.isRepeated = option->get_items_expected_max() > 1;
+    }
+    for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) {
+        if (!verb->get_group().empty()) command.verbs.push_back(describe(*verb));
+    }
+    return command;
+}
+
+int printManual()
+{
+    // Without a date, so that the same program prints the same page.
+    fmt::print("{}", formatManual(describeCommandLine(), std::string(toolVersion()), ""));
+    return static_cast<int>(ExitCode::kAsExpected);
+}
+
+int printCompletion(const std::string& shell)
+{
+    const std::map<std::string, Shell> shells{{"bash", Shell::kBash}, {"zsh", Shell::kZsh}, {"fish", Shell::kFish}};
+    const auto found = shells.find(shell);
+    if (found == shells.end()) {
+        throw InputError(fmt::format("completion {}: allowed are bash, zsh and fish", shell));
+    }
+    fmt::print("{}", formatCompletion(describeCommandLine(), found->second));
+    return static_cast<int>(ExitCode::kAsExpected);
+}
+
+} // namespace
+
+CommandDescription describeCommandLine()
+{
+    CommandLine line;
+    return describe(*makeApp(line));
 }
 
 std::vector<std::string> listOptions()

@@ -29,6 +29,7 @@ struct CommandLine {
     bool diffJson = false;
     ReviewOptions review;
     ReportVerbOptions report;
+    std::string shell;
     bool noReport = false;
     bool reviewList = false;
     std::string github = "auto";

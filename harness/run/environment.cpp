@@ -41,7 +41,8 @@ fs::path findFolder(const std::string& given, const char* variable, const std::s
         throw InputError(
             fmt::format("{}: there is no such folder; --{} or {} names the folder {}/", chosen, name, variable, name));
     }
-    for (const fs::path& candidate : {fs::path(CROSSRAY_SOURCE_DIR) / name, findInstalled(name)}) {
+    // An installed program takes what was installed with it, though the tree that it was built from may still be there.
+    for (const fs::path& candidate : {findInstalled(name), fs::path(CROSSRAY_SOURCE_DIR) / name}) {
         if (fs::is_directory(candidate, failure)) return candidate;
     }
     throw EnvironmentError(fmt::format(
