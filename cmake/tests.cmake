@@ -47,6 +47,13 @@ if(TARGET test_run)
   add_dependencies(test_property worker_program)
 endif()
 
+# Each situation in which methods fail: the case of the suite catches the naive form of the function.
+if(TARGET crossray_run)
+  crossray_test_program(test_stability SOURCES tests/stability/naive_shader.cpp tests/stability/stability_test.cpp
+                        USES crossray_run PREFIX stability.)
+  add_dependencies(test_stability worker_program)
+endif()
+
 # The shader library as C++: the same tests once in float and once in double, and the same .glsl files that ship.
 file(GLOB shader_test_sources CONFIGURE_DEPENDS tests/shader/*_test.cpp)
 foreach(precision 32 64)

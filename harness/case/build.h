@@ -26,6 +26,8 @@ void buildProfile(const TableReader& top, Case& testCase);   // after buildScene
 void buildSky(const TableReader& top, Case& testCase);       // after buildScene
 void buildHierarchy(const TableReader& top, Case& testCase); // after buildProbes
 void buildExpectations(const Node& root, const ToleranceLookup& findTolerance, Case& testCase);
+// Expectations of every output become one of each; after Case::outputs is known.
+void spreadOverOutputs(Case& testCase);
 void buildKnownFailures(const Node& root, Case& testCase);
 
 // Of a value that is Euler degrees [x, y, z], applied about the fixed x axis, then y, then z, or { axis, degrees }.

@@ -11,7 +11,8 @@ namespace crossray {
 
 namespace {
 
-constexpr std::array<std::string_view, 5> kSources{"analytic", "truth", "constant", "golden", "agree"};
+constexpr std::array<std::string_view, 7> kSources{"analytic", "truth",   "constant", "golden",
+                                                   "agree",    "at_most", "finite"};
 constexpr std::array<std::string_view, 4> kHitClassNames{"no_raycast", "hit", "miss", "unknown"};
 
 std::string_view sourceOf(const TableReader& table)
@@ -22,14 +23,15 @@ std::string_view sourceOf(const TableReader& table)
         if (!source.empty()) {
             throw InputError(table.position(key),
                              fmt::format("two sources, \"{}\" and \"{}\"; exactly one of analytic, truth, "
-                                         "constant, golden and agree is allowed",
+                                         "constant, golden, agree, at_most and finite is allowed",
                                          source, key));
         }
         source = key;
     }
     if (source.empty()) {
         throw InputError(table.position(""),
-                         "no source; exactly one of analytic, truth, constant, golden and agree is required");
+                         "no source; exactly one of analytic, truth, constant, golden, agree, at_most and finite is "
+                         "required");
     }
     return source;
 }
@@ -78,6 +80,24 @@ AgreeSource buildAgree(const TableReader& table)
     return source;
 }
 
+BoundSource buildBound(const TableReader& table, std::string_view key, const OutputInfo& output)
+{
+    if (table.has("tolerance")) {
+        throw InputError(table.position("tolerance"),
+                         fmt::format("a tolerance beside \"{}\" is not allowed; the bound is one", key));
+    }
+    if (key == "finite") {
+        if (table.boolean(key)) return {};
+        throw InputError(table.position(key), "\"finite\" is false; true is allowed");
+    }
+    if (output.type == OutputType::kHitClass || output.type == OutputType::kDirection) {
+        throw InputError(
+            table.position(key),
+            fmt::format("\"at_most\" of {} is not allowed; depths, colours, scalars and counts have one", output.name));
+    }
+    return {table.number(key)};
+}
+
 ExpectationSource buildSource(const TableReader& table, std::string_view key, const OutputInfo& output,
                               const Case& testCase)
 {
@@ -85,7 +105,8 @@ ExpectationSource buildSource(const TableReader& table, std::string_view key, co
     if (key == "truth") return TruthSource{table.text(key)};
     if (key == "constant") return buildConstant(*table.find(key), output);
     if (key == "golden") return GoldenSource{resolveInside(testCase, *table.find(key), key, false)};
-    return buildAgree(table);
+    if (key == "agree") return buildAgree(table);
+    return buildBound(table, key, output);
 }
 
 std::vector<std::string_view> boundsOf(OutputType type)
@@ -189,22 +210,32 @@ HitBudget buildBudget(const TableReader& expect, std::string_view source, const 
     return budget;
 }
 
+// Without a name: every output, which are not known yet.
+OutputInfo buildOutput(const TableReader& table, std::string_view source)
+{
+    if (table.has("output")) return *findOutput(table.text("output"));
+    if (source == "finite") return {};
+    throw InputError(table.position(""), "\"output\" is missing in [expect]; \"finite\" alone does without");
+}
+
 Expectation buildExpectation(const Node& node, const ToleranceLookup& findTolerance, const Case& testCase)
 {
     const TableReader table(&node, "expect");
     Expectation expectation;
     expectation.position = node.place.position();
-    expectation.output = *findOutput(table.text("output"));
     const std::string_view source = sourceOf(table);
+    const bool isBound = source == "finite" || source == "at_most";
+    expectation.output = buildOutput(table, source);
     expectation.source = buildSource(table, source, expectation.output, testCase);
-    expectation.where = static_cast<Where>(table.choice("where"));
+    expectation.where = source == "finite" ? Where::kAll : Where::kTraced;
+    if (table.has("where")) expectation.where = static_cast<Where>(table.choice("where"));
     expectation.backends = table.texts("backends");
     if (table.has("budget")) expectation.budget = buildBudget(table, source, expectation.output);
 
     if (const Node* tolerance = table.find("tolerance")) {
         const bool isPreset = tolerance->kind == NodeKind::kString;
         expectation.tolerance = buildTolerance(isPreset ? findTolerance(*tolerance) : *tolerance, expectation.output);
-    } else if (!boundsOf(expectation.output.type).empty()) {
+    } else if (!isBound && !boundsOf(expectation.output.type).empty()) {
         throw InputError(node.place.position(),
                          fmt::format("\"tolerance\" is missing; {} requires one that sets {}", expectation.output.name,
                                      joinNames(boundsOf(expectation.output.type))));
@@ -240,6 +271,22 @@ void buildExpectations(const Node& root, const ToleranceLookup& findTolerance, C
     for (const Node& node : list.items) {
         testCase.expectations.push_back(buildExpectation(node, findTolerance, testCase));
     }
+}
+
+void spreadOverOutputs(Case& testCase)
+{
+    std::vector<Expectation> spread;
+    for (Expectation& expectation : testCase.expectations) {
+        if (!expectation.output.name.empty()) {
+            spread.push_back(std::move(expectation));
+            continue;
+        }
+        for (const OutputInfo& output : testCase.outputs) {
+            spread.push_back(expectation);
+            spread.back().output = output;
+        }
+    }
+    testCase.expectations = std::move(spread);
 }
 
 void buildKnownFailures(const Node& root, Case& testCase)

@@ -127,7 +127,11 @@ struct GoldenSource {
 struct AgreeSource {
     std::vector<std::string> backends;
 }; // each against the last of the list
-using ExpectationSource = std::variant<AnalyticSource, TruthSource, ConstantSource, GoldenSource, AgreeSource>;
+struct BoundSource {
+    std::optional<double> atMost;
+}; // every value is a number, and none exceeds the bound where there is one
+using ExpectationSource =
+    std::variant<AnalyticSource, TruthSource, ConstantSource, GoldenSource, AgreeSource, BoundSource>;
 
 // Which pixels an expectation speaks of.
 enum class Where {
@@ -183,8 +187,8 @@ struct Case {
     bool mustFail = false; // passes when the judge fails it on every backend: proof of the ruler
     double timeoutSeconds = 20;
     std::string benchFamily; // methods that `crossray bench` measures; empty: those that go with the effect
-    std::string needs;  // kind of method that its scene needs to keep `budget`, for the bench; empty: no claim
-    std::string budget; // "HitDepth<=0.01"
+    std::string needs;       // kind of method that its scene needs to keep `budget`, for the bench; empty: no claim
+    std::string budget;      // "HitDepth<=0.01"
 };
 
 // Reads one file and expands its parameter lists. Throws InputError with file:line:column and what is allowed.

@@ -190,7 +190,7 @@ void collectOutputs(const TableReader& top, Case& testCase)
     for (std::string& name : top.texts("outputs"))
         names.insert(std::move(name));
     for (const Expectation& expectation : testCase.expectations) {
-        names.emplace(expectation.output.name);
+        if (!expectation.output.name.empty()) names.emplace(expectation.output.name);
         const bool asksForHits = expectation.where == Where::kHits || expectation.where == Where::kAnswerableHits;
         if (asksForHits || expectation.budget) names.emplace("HitSuccess");
         if (expectation.budget) names.emplace("HitPositionSS");
@@ -225,6 +225,7 @@ Case buildCase(const Node& root, const fs::path& file, const Node* presets)
         root, [&](const Node& name) -> const Node& { return findPreset(presets, "tolerance", name); }, testCase);
     buildKnownFailures(root, testCase);
     collectOutputs(top, testCase);
+    spreadOverOutputs(testCase);
     return testCase;
 }
 

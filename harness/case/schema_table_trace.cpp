@@ -74,7 +74,8 @@ std::vector<KeySpec> projectionKeys()
 {
     return {
         Key("projection", "model", kChoice)
-            .oneOf({"none", "proxy_infinite", "proxy_box", "proxy_sphere", "hiz", "linear", "patches", "proxy_probe", "own"})
+            .oneOf({"none", "proxy_infinite", "proxy_box", "proxy_sphere", "hiz", "linear", "patches", "proxy_probe",
+                    "own"})
             .byDefault("\"none\"")
             .says("What the ray is projected on; none computes the ray alone, proxy_probe takes the proxy of the first "
                   "[[probe]] "
@@ -209,7 +210,10 @@ std::vector<KeySpec> historyKeys()
 std::vector<KeySpec> expectKeys()
 {
     return {
-        Key("expect", "output", kChoice).oneOf(outputNames()).required().says("The output that is held to something."),
+        Key("expect", "output", kChoice)
+            .oneOf(outputNames())
+            .withoutIt("required; finite: every output of the case")
+            .says("The output that is held to something."),
         Key("expect", "analytic", kString).withoutIt("one source is required").says("Source: a closed form, by name."),
         Key("expect", "truth", kString)
             .withoutIt("one source is required")
@@ -227,15 +231,23 @@ std::vector<KeySpec> expectKeys()
             .allowed("two names or more")
             .withoutIt("one source is required")
             .says("Source: these backends, each against the last."),
+        Key("expect", "at_most", kNumber)
+            .withoutIt("one source is required")
+            .says(
+                "Source: a bound; every value is a number that does not exceed it. Depths, colours, scalars, counts."),
+        Key("expect", "finite", kBoolean)
+            .allowed("true")
+            .withoutIt("one source is required")
+            .says("Source: every value is a number of single precision: neither NaN nor infinite."),
         Key("expect", "tolerance", kTableOrPreset)
-            .withoutIt("required, but for HitSuccess and counts: exact")
+            .withoutIt("required, but for HitSuccess and counts: exact; at_most and finite have none")
             .says("Bounds of a pixel's error; a name is [tolerance.NAME] of presets.toml."),
         Key("expect", "budget", kTable)
             .withoutIt("none")
             .says("HitSuccess against the truth, by shares; replaces a pixel by pixel comparison."),
         Key("expect", "where", kChoice)
             .oneOf({"traced", "all", "answerable", "answerable_hits", "hits"})
-            .byDefault("\"traced\"")
+            .withoutIt("\"traced\"; finite: \"all\"")
             .says("Pixels that are compared: those that trace; every one; those whose hit the screen could have known; "
                   "of these or of all those that say hit."),
         Key("expect", "backends", kChoiceList)

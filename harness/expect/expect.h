@@ -81,9 +81,10 @@ class CaseData {
 std::vector<GBufferChannel> channelsFor(const Case& testCase);
 
 // The expected plane of an analytic, truth, constant or golden source; 0 at pixels that trace no ray (a constant is
-// everywhere). Agreement has no plane of its own: the runner supplies the reference backend's. A missing golden returns
-// nothing. Throws InputError at the expectation's position, with what is allowed: an unknown name, an output that the
-// source cannot answer for, a closed form or a truth that the case's data cannot give, a golden of another shape.
+// everywhere, and so is a bound, which for "finite" is the largest float). Agreement has no plane of its own: the
+// runner supplies the reference backend's. A missing golden returns nothing. Throws InputError at the expectation's
+// position, with what is allowed: an unknown name, an output that the source cannot answer for, a closed form or a
+// truth that the case's data cannot give, a golden of another shape.
 std::optional<Plane> makeExpected(const CaseData& data, const Expectation& expectation);
 
 // What of makeExpected()'s errors can be known before anything is computed: names of closed forms and truths, outputs

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace crossray {
 
@@ -254,6 +255,10 @@ std::optional<Plane> makeExpected(const CaseData& data, const Expectation& expec
     }
     if (const auto* golden = std::get_if<GoldenSource>(&expectation.source))
         return readGolden(data, *golden, expectation);
+    if (const auto* bound = std::get_if<BoundSource>(&expectation.source)) {
+        constexpr double kLargest = std::numeric_limits<float>::max(); // doubles beyond it are no numbers of the shader
+        return makeConstant(data, {{bound->atMost.value_or(kLargest)}}, expectation);
+    }
     throw InputError(expectation.position, "agreement has no plane of its own: it is judged against another backend's");
 }
 

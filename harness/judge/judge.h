@@ -94,6 +94,10 @@ Comparison compareCounts(const Plane& expected, const Plane& actual, const Mask&
 Comparison compare(OutputType type, const Plane& expected, const Plane& actual, const Mask& mask,
                    const Tolerance& tolerance);
 
+// Every value is a number, and none lies above the bound of its channel; `isMagnitude`: nor below its negative. The
+// errors are what exceeds it.
+Comparison compareWithBound(const Plane& bound, const Plane& actual, const Mask& mask, bool isMagnitude);
+
 // One pixel of the truth as the budget sees it.
 struct HitTruth {
     bool traced = false;       // the pixel traces a ray at all; the others are left out

@@ -129,4 +129,30 @@ Comparison compareScalars(const Plane& expected, const Plane& actual, const Mask
     return compareNumbers("scalar", 0, false, Measure::kAbsolute, expected, actual, mask, tolerance);
 }
 
+Comparison compareWithBound(const Plane& bound, const Plane& actual, const Mask& mask, bool isMagnitude)
+{
+    checkComparison("bound", 0, bound, actual, mask, {}, {});
+    Tally tally(bound, actual, mask, "absolute");
+    const auto stride = static_cast<size_t>(bound.channels);
+    for (size_t pixel = 0; pixel < bound.pixelCount(); ++pixel) {
+        if (!tally.isCompared(pixel)) continue;
+        double error = 0.0;
+        int kind = kBeyondTolerance;
+        for (size_t value = pixel * stride; value < (pixel + 1) * stride; ++value) {
+            const double b = bound.values[value];
+            const double a = isMagnitude ? std::fabs(actual.values[value]) : actual.values[value];
+            const bool isNumber = std::isfinite(a);
+            if (isNumber && a <= b) continue;
+            error = isNumber ? std::max(error, a - b) : kInfinity;
+            if (!isNumber) kind = differenceKind(NumberKind::kFinite, classify(actual.values[value]));
+        }
+        if (error > 0.0) {
+            tally.fail(pixel, error, kind);
+        } else {
+            tally.pass(pixel, 0.0);
+        }
+    }
+    return tally.finish({}, nameOfDifference);
+}
+
 } // namespace crossray

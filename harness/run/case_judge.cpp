@@ -58,6 +58,7 @@ std::string describeSource(const ExpectationSource& source)
         std::string operator()(const ConstantSource&) const { return "constant"; }
         std::string operator()(const GoldenSource& golden) const { return "golden " + golden.file.filename().string(); }
         std::string operator()(const AgreeSource& agree) const { return "agree with " + referenceOf(agree); }
+        std::string operator()(const BoundSource& bound) const { return bound.atMost ? "at most" : "finite"; }
     };
     return std::visit(Describe{}, source);
 }
@@ -78,6 +79,8 @@ std::string describeBudget(const HitBudget& budget)
 std::string describeTolerance(const Expectation& expectation)
 {
     if (expectation.budget) return describeBudget(*expectation.budget);
+    if (const auto* bound = std::get_if<BoundSource>(&expectation.source))
+        return bound->atMost ? fmt::format("{:g}", *bound->atMost) : "any finite number";
     const Tolerance& tolerance = expectation.tolerance;
     std::vector<std::string> bounds;
     if (tolerance.degrees) bounds.push_back(fmt::format("{:g} degrees", *tolerance.degrees));
@@ -145,6 +148,9 @@ Comparison CaseJudge::compareWith(const Expectation& expectation, const Plane& e
 {
     const Plane& actual = requirePlane(planes, expectation);
     const Mask mask = maskFor(expectation, planes);
+    if (const auto* bound = std::get_if<BoundSource>(&expectation.source))
+        return compareAt(expectation.position,
+                         [&] { return compareWithBound(expected, actual, mask, !bound->atMost.has_value()); });
     return compareAt(expectation.position,
                      [&] { return compare(expectation.output.type, expected, actual, mask, expectation.tolerance); });
 }

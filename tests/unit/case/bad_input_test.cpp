@@ -143,13 +143,23 @@ TEST_F(BadInput, aNameOfNoChoiceIsAnsweredWithTheChoices)
 TEST_F(BadInput, anExpectationHasExactlyOneSource)
 {
     EXPECT_EQ(refusal(expecting("output = \"HitDepth\"\nanalytic = \"x\"\ntruth = \"y\"\n")),
-              "a.toml:8:9: two sources, \"analytic\" and \"truth\"; exactly one of analytic, truth, constant, golden "
-              "and agree is "
-              "allowed");
-    EXPECT_EQ(refusal(expecting("output = \"HitDepth\"\n")),
-              "a.toml:5:1: no source; exactly one of analytic, truth, constant, golden and agree is required");
+              "a.toml:8:9: two sources, \"analytic\" and \"truth\"; exactly one of analytic, truth, constant, "
+              "golden, agree, at_most and finite is allowed");
+    EXPECT_EQ(refusal(expecting("output = \"HitDepth\"\n")), "a.toml:5:1: no source; exactly one of analytic, truth, "
+                                                             "constant, golden, agree, at_most and finite is required");
     EXPECT_EQ(refusal(expecting("output = \"HitSuccess\"\nagree = [\"osmesa\"]\n")),
               "a.toml:7:9: \"agree\" has 1 name; two or more are allowed");
+}
+
+TEST_F(BadInput, aBoundIsOfNumbersAndHasNoTolerance)
+{
+    EXPECT_EQ(refusal(expecting("output = \"HitSuccess\"\nat_most = 1\n")),
+              "a.toml:7:11: \"at_most\" of HitSuccess is not allowed; depths, colours, scalars and counts have one");
+    EXPECT_EQ(refusal(expecting("output = \"HitDepth\"\nat_most = 1\ntolerance = { absolute = 1 }\n")),
+              "a.toml:8:13: a tolerance beside \"at_most\" is not allowed; the bound is one");
+    EXPECT_EQ(refusal(expecting("finite = false\n")), "a.toml:6:10: \"finite\" is false; true is allowed");
+    EXPECT_EQ(refusal(expecting("analytic = \"x\"\n")),
+              "a.toml:5:1: \"output\" is missing in [expect]; \"finite\" alone does without");
 }
 
 TEST_F(BadInput, aToleranceFitsItsOutput)

@@ -57,6 +57,26 @@ tolerance = { degrees = 1e-4, outliers = 0.01, worst = 2 }
     EXPECT_EQ(c.outputs[0].name, "RayDirWS");
 }
 
+TEST_F(CaseReader, aBoundSpeaksOfItsOutputAndFiniteOfEachOne)
+{
+    const Case c = readOne("schema = 1\nname = \"a\"\nsummary = \"s\"\nscene = {}\noutputs = [\"HitDepth\"]\n"
+                           "[[expect]]\nfinite = true\n"
+                           "[[expect]]\noutput = \"IterationCount\"\nat_most = 64\n"
+                           "[[expect]]\noutput = \"RayDirWS\"\nfinite = true\nwhere = \"traced\"\n");
+    ASSERT_EQ(c.outputs.size(), 3u);
+    ASSERT_EQ(c.expectations.size(), 5u);
+    for (size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(c.expectations[i].output.name, c.outputs[i].name);
+        EXPECT_EQ(c.expectations[i].where, Where::kAll);
+        EXPECT_EQ(c.expectations[i].position.line, 6);
+        EXPECT_FALSE(std::get<BoundSource>(c.expectations[i].source).atMost);
+    }
+    EXPECT_EQ(std::get<BoundSource>(c.expectations[3].source).atMost, 64.0);
+    EXPECT_EQ(c.expectations[3].where, Where::kTraced);
+    EXPECT_EQ(c.expectations[4].output.name, "RayDirWS");
+    EXPECT_EQ(c.expectations[4].where, Where::kTraced);
+}
+
 TEST_F(CaseReader, takesTheDefaultsOfTheStructs)
 {
     const Case c = readOne(withScene(""));

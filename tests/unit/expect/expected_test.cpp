@@ -346,6 +346,13 @@ TEST(Expected, aConstantIsOneValueOrOneAChannel)
     EXPECT_NE(errorOf([&] { makeExpected(data, expectation("HitDepth", ConstantSource{{}})); }), "");
 }
 
+TEST(Expected, aBoundIsTheSameEverywhere)
+{
+    const CaseData data(glassSphere());
+    EXPECT_EQ(makeExpected(data, expectation("IterationCount", BoundSource{64.0}))->at(23, 15, 0), 64.0);
+    EXPECT_EQ(makeExpected(data, expectation("Color", BoundSource{}))->at(3, 4, 2), std::numeric_limits<float>::max());
+}
+
 TEST(Expected, aGoldenIsReadByItsOutputsName)
 {
     const CaseData data(glassSphere());

@@ -201,3 +201,26 @@ RC_GTEST_PROP(CompareNumbers, aWiderToleranceNeverFailsWhatANarrowerPassed, (std
         RC_ASSERT(lenient.passed || !strict.passed);
     }
 }
+
+TEST(CompareWithBound, passesNumbersUpToTheBoundAndNothingElse)
+{
+    const Plane bound = row(1, {10, 10, 10, 10, 10, 10});
+    const Plane actual = row(1, {10, -1e30, 10.5, kNan, kInf, -kInf});
+    const Comparison below = compareWithBound(bound, actual, {}, false);
+    EXPECT_EQ(below.compared, 6u);
+    EXPECT_EQ(below.failed, 4u);
+    EXPECT_EQ(below.census.at("beyond tolerance"), 1u);
+    EXPECT_EQ(below.census.at("NaN for finite"), 1u);
+    EXPECT_EQ(below.census.at("Inf for finite"), 1u);
+    EXPECT_EQ(below.census.at("-Inf for finite"), 1u);
+    EXPECT_EQ(compareWithBound(bound, actual, {}, true).failed, 5u);
+    EXPECT_TRUE(compareWithBound(bound, actual, {1, 1, 0, 0, 0, 0}, false).passed);
+    EXPECT_FALSE(compareWithBound(bound, actual, {0, 0, 0, 0, 0, 0}, false).passed); // nothing compared proves nothing
+}
+
+TEST(CompareWithBound, looksAtEveryChannel)
+{
+    const Comparison comparison = compareWithBound(row(3, {1, 1, 1}), row(3, {0.5, 3, 2}), {}, false);
+    EXPECT_FALSE(comparison.passed);
+    EXPECT_DOUBLE_EQ(comparison.worst->error, 2.0);
+}
