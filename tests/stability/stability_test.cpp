@@ -15,6 +15,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <set>
 #include <sstream>
@@ -173,6 +174,32 @@ INSTANTIATE_TEST_SUITE_P(stability, NaiveForm, testing::ValuesIn(listNumbered(kN
 TEST(StabilitySuite, everySituationHasACaseAndANaiveForm)
 {
     EXPECT_EQ(numbersOf(listNumbered(kCases, ".toml")), numbersOf(listNumbered(kNaive, ".glsl")));
+}
+
+TEST(StabilitySuite, theDocumentNamesEachFile)
+{
+    std::ifstream stream(fs::path(CROSSRAY_SOURCE_DIR) / "docs/stability-suite.md");
+    std::map<std::string, std::string> rows; // by number
+    for (std::string line; std::getline(stream, line);) {
+        if (line.starts_with("| ") && std::isdigit(static_cast<unsigned char>(line[2])) != 0)
+            rows[fmt::format("{:02}", std::stoi(line.substr(2)))] += line;
+    }
+    std::set<std::string> numbers;
+    size_t links = 0;
+    for (const auto& [number, row] : rows) {
+        numbers.insert(number);
+        for (size_t at = 0; (at = row.find("](../", at)) != std::string::npos; ++at)
+            ++links;
+    }
+    std::vector<fs::path> files = listNumbered(kCases, ".toml");
+    EXPECT_EQ(numbers, numbersOf(files));
+    for (const fs::path& form : listNumbered(kNaive, ".glsl"))
+        files.push_back(form);
+    for (const fs::path& file : files) {
+        const std::string path = file.lexically_relative(CROSSRAY_SOURCE_DIR).generic_string();
+        EXPECT_NE(rows[file.filename().string().substr(0, 2)].find("](../" + path + ")"), std::string::npos) << path;
+    }
+    EXPECT_EQ(links, files.size()) << "the document names a file that is not there, or one twice";
 }
 
 TEST(StabilitySuite, casesBearTheTagAndSayWhyANaiveShaderFails)
