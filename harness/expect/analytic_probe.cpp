@@ -68,7 +68,7 @@ double normalShare(const Probe& probe, const SurfacePoint& surface)
     if (isInBlendNormalVolume(probe, surface.positionWS)) return 1.0;
     const glm::dvec3 away = surface.positionWS - probe.capturePosition;
     const double distance = glm::length(away);
-    if (distance == 0.0) return 1.0;
+    if (std::max({std::abs(away.x), std::abs(away.y), std::abs(away.z)}) <= kSmallestBlend) return 1.0;
     return clamp01((0.6 - glm::dot(surface.normalWS, away) / distance) / 0.4);
 }
 

@@ -162,8 +162,8 @@ ProbeTier askProfileProbes(PixelSurface surface, vec3 originWS, vec3 dirWS, floa
                              choose(isFirst, seen.mipLevel, tier.firstMipLevel));
         }
     }
-    // From 0.99 on the code leaves the sky nothing.
-    bool isFull = kProbeProfile == kProfileUrpUnity && total >= kUrpFull;
+    // The code leaves the sky nothing from 0.99 on.
+    bool isFull = computeUrpSkyWeight(total, rulesOfProfile()) <= 0.0;
     float taken = choose(isFull, 1.0, saturate(hierarchyWeight + left * total));
     return ProbeTier(taken, tier.weight, tier.color, tier.weights, tier.firstDirWS, tier.firstMipLevel);
 }

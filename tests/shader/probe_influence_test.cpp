@@ -92,6 +92,10 @@ TEST(ShaderProbeInfluence, BlendNormalByTheAngleBetweenNormalAndWayFromTheCaptur
         EXPECT_NEAR(computeBlendNormalFade(normal * 7.0, vec3(0, 3, 0)), fade, 8 * kUlps) << cosine;
     }
     EXPECT_EQ(computeBlendNormalFade(vec3(0, 1, 0), vec3(0)), 1); // at the capture position
+    // So near to it that the way is rounding, and its direction noise.
+    for (Real rounding : {Real(1e-16), Real(1e-7), Real(-1e-7), Real(9e-5)})
+        EXPECT_EQ(computeBlendNormalFade(vec3(0, 1, 0), vec3(0, rounding, 0)), 1) << rounding;
+    EXPECT_EQ(computeBlendNormalFade(vec3(0, 1, 0), vec3(0, Real(2e-4), 0)), 0);
     EXPECT_EQ(computeBlendNormalFade(vec3(0), vec3(0, 1, 0)), 1);
     EXPECT_EQ(computeBlendNormalFade(vec3(kNaN), vec3(0, 1, 0)), 1);
 }

@@ -110,6 +110,12 @@ TEST(ShaderProxy, ZeroComponentsAndFaces)
         }
         EXPECT_TRUE(isMiss(projectProxyBox(vec3(Real(1.1), 0, 0), vec3(zero, 0, 1), vec3(0), kUpright, e), 6));
     }
+    // Along a face but for a rounding, outwards: the face is not met, as if the ray ran along it.
+    for (Real rounding : {Real(1e-17), Real(6e-8), Real(-6e-8)}) {
+        ProxyHit hit = projectProxyBox(vec3(1, 2, 0), vec3(rounding, rounding, 1), vec3(0), kUpright, e);
+        EXPECT_TRUE(hit.hit);
+        EXPECT_EQ(hit.positionWS.z, 3) << rounding;
+    }
     // On a face, outwards: the origin itself. Outside by a rounding: the same.
     for (Real x : {Real(1), 1 + kUlps, 1 - kUlps}) {
         ProxyHit hit = projectProxyBox(vec3(x, 0, 0), vec3(1, 0, 0), vec3(0), kUpright, e);

@@ -5,7 +5,7 @@
 // A second form that circulates chooses the face behind the ray instead; it is not here. Answers to the borders, of
 // both:
 // - a probe that does not enable it (w not above 0, NaN): the direction unchanged, not applied;
-// - a component of +0, -0 or below 1e-20: its two faces are never met;
+// - a component of +0, -0 or below kParallelDirection: its two faces are never met;
 // - a position on a face with the ray pointing out: the position itself (to kProxyTolerance of the size);
 // - a position outside: the far face where the ray meets the box, else unchanged and not applied;
 // - a box without size in a direction is a plane; one whose ends are swapped or not finite: not applied;
@@ -31,7 +31,7 @@ struct BoxProjection {
 // An axis that the ray does not move along never meets its faces.
 float distanceToFace(float toFace, float dir)
 {
-    bool isParallel = abs(dir) < 1e-20;
+    bool isParallel = abs(dir) < kParallelDirection;
     return choose(isParallel, 1e30, toFace / choose(isParallel, 1.0, dir));
 }
 

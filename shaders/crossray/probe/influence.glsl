@@ -7,7 +7,8 @@
 //   sphere outside its surface, as the formulas have it;
 // - a blend distance beyond half the extent: the weight nowhere reaches 1;
 // - negative and NaN extents, a position that is not finite, a shape that is neither box nor sphere: weight 0;
-// - a point at the capture position, or a normal without direction: nothing faces away, and the blend normal is 1;
+// - a point at the capture position, to 1e-4 m, or a normal without direction: nothing faces away, and the blend normal
+//   is 1; nearer, the way between the two is rounding, and its direction noise;
 // - a reflection direction without direction: the faces of a box give 0;
 // - face fades and the weight are clamped to [0,1]; NaN counts as 0.
 #ifndef CROSSRAY_PROBE_INFLUENCE_GLSL
@@ -87,7 +88,8 @@ float computeBlendNormalFade(vec3 normalWS, vec3 fromCaptureWS)
 {
     vec3 n = safeNormalize(normalWS, vec3(0.0));
     vec3 away = safeNormalize(fromCaptureWS, vec3(0.0));
-    return saturate(1.5 - 2.5 * dot(n, away));
+    bool isAway = maxComponent(abs(fromCaptureWS)) > kSmallestBlend;
+    return saturate(1.5 - 2.5 * choose(isAway, dot(n, away), 0.0));
 }
 
 // How much of a reflection a box's faces let through; dirIS is normalised here. 0 with all faces at 0, 1 with all at 1.

@@ -5,8 +5,8 @@
 // borders:
 // - no meeting: no hit, kHitReasonNoProxyHit, position the origin, distance 0;
 // - an origin on a face (to kProxyTolerance of the size): inside; if the ray points outwards the hit is at distance 0;
-// - direction components of +0 and -0 never meet their two faces; between or on them the other axes decide, outside is
-// no hit;
+// - direction components of +0, -0 or below kParallelDirection never meet their two faces; between or on them the other
+// axes decide, outside is no hit;
 // - a ray that touches a sphere in one point or a box along an edge: a hit there;
 // - a zero, NaN or infinite direction, or an origin that is not finite: kHitReasonDegenerateRay;
 // - negative, NaN or infinite sizes: kHitReasonDegenerateInput.
@@ -18,6 +18,9 @@
 #include "crossray/shared/outputs.glsl"
 
 const float kProxyTolerance = 1e-5;
+// A unit direction's component that is no more than its rounding: a ray that runs along a face to that, and starts on
+// it, would else leave the box there by the sign of the rounding.
+const float kParallelDirection = 1e-7;
 
 struct ProxyHit {
     vec3 positionWS;
@@ -47,7 +50,7 @@ vec2 intersectSlab(float origin, float dir, float extent)
     float margin = kProxyTolerance * extent;
     bool between = abs(origin) <= extent + margin;
     vec2 parallel = between ? vec2(-1e30, 1e30) : vec2(1e30, -1e30);
-    bool isParallel = abs(dir) < 1e-20;
+    bool isParallel = abs(dir) < kParallelDirection;
     float inverse = 1.0 / (isParallel ? 1.0 : dir);
     float a = (-extent - origin) * inverse;
     float b = (extent - origin) * inverse;
