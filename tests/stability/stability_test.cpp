@@ -109,10 +109,13 @@ class NaiveForm : public testing::TestWithParam<fs::path> {
 std::unique_ptr<WorkerPool> NaiveForm::pool_;
 std::unique_ptr<ShaderCompiler> NaiveForm::compiler_;
 
-std::vector<Case> readSituation(const std::string& number)
+// The case that has the naive form's own name, else all of its situation.
+std::vector<Case> readSituation(const NaiveShader& naive)
 {
+    std::vector<fs::path> files{kCases / naive.path.filename().replace_extension(".toml")};
+    if (!fs::exists(files[0])) files = listNumbered(kCases, ".toml", naive.number);
     std::vector<Case> cases;
-    for (const fs::path& file : listNumbered(kCases, ".toml", number)) {
+    for (const fs::path& file : files) {
         for (Case& testCase : readCaseFile(file))
             cases.push_back(std::move(testCase));
     }
@@ -150,7 +153,7 @@ std::string testName(const testing::TestParamInfo<fs::path>& info)
 TEST_P(NaiveForm, isCaughtByTheCasesOfItsSituation)
 {
     const NaiveShader naive = readNaiveShader(GetParam());
-    const std::vector<Case> cases = readSituation(naive.number);
+    const std::vector<Case> cases = readSituation(naive);
     ASSERT_FALSE(cases.empty()) << "cases/stability/ has no case " << naive.number << "_*.toml";
 
     const RunResult sound = runCases(cases, kShaders, {}, 0);
