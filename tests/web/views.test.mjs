@@ -4,7 +4,7 @@ import { deflateSync } from 'node:zlib';
 import { acceptCommand, knownFailureToml, quoteForShell, traceCommand } from '../../harness/report/web/commands.js';
 import { choose } from '../../harness/report/web/choose.js';
 import { divergingTable, nanColor, plusInfinityColor, sequentialTable } from '../../harness/report/web/colors.js';
-import { compareDisplay, compareMask, measure, Plane, rankErrors, unpackFloats } from '../../harness/report/web/planes.js';
+import { compareDisplay, compareMask, decidableMask, measure, Plane, rankErrors, unpackFloats } from '../../harness/report/web/planes.js';
 import { formatHash, kDefaults, parseHash } from '../../harness/report/web/state.js';
 import { drawPlane, resolveView } from '../../harness/report/web/views.js';
 
@@ -104,4 +104,13 @@ test('an empty state becomes the failure that says most', () => {
   assert.equal(found.against.plane, planesOf.get('a')[0]);
   assert.equal(choose({ ...kDefaults, e: 0 }, item, details, planesOf, outputs).against.plane.name, 'HitDepth@0');
   assert.ok(choose({ ...kDefaults, vs: 'a' }, item, details, planesOf, outputs).isAgainstBackend);
+});
+
+test('pixels above the bound of conditioning cannot be decided', () => {
+  const condition = new Plane('HitDepth@condition', 3, 1, 1, Float32Array.of(0, Infinity, 1025));
+  assert.deepEqual([...decidableMask([condition], 'HitDepth', 1024)], [1, 0, 0]);
+  assert.deepEqual([...decidableMask([condition], 'HitDepth', 2000)], [1, 0, 1]);
+  assert.equal(decidableMask([condition], 'Color', 1024), null, 'not measured');
+  assert.equal(decidableMask([new Plane('Color@condition', 2, 1, 1, Float32Array.of(0, 3))], 'Color', 1024), null, 'nowhere above');
+  assert.equal(decidableMask(undefined, 'Color', 1024), null);
 });

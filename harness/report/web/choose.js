@@ -2,6 +2,7 @@
 // shows. Pure; the state's empty places become the choice that says most.
 
 const kAgreement = 'agree with ';
+export const kNoBackend = new Set(['expected', 'conditioning']); // sources of planes that no backend gave
 
 /** The result that a person wants to see first: the first that failed. */
 export function chooseBackend(item, wanted) {
@@ -17,7 +18,7 @@ function isFailure(expectation, mustFail) {
 export function listOutputs(item, planesOf) {
   const names = new Set();
   for (const [source, planes] of planesOf) {
-    if (source !== 'expected') planes.forEach((plane) => names.add(plane.name));
+    if (!kNoBackend.has(source)) planes.forEach((plane) => names.add(plane.name));
   }
   item.outputs.forEach((name) => names.add(name));
   return [...names];

@@ -1,6 +1,6 @@
 // Where a page's data come from. A piece is in the file itself, or in data/NAME.js beside it: a script that is added
-// when the piece is asked for, since a page from disk may read its siblings in no other way. A server that feeds the
-// same page needs to replace loadPiece alone.
+// when the piece is asked for, since a page from disk may read its siblings in no other way. In the inspector it comes
+// from the server.
 import { Plane, unpackFloats } from 'crossray/planes.js';
 
 const pieces = new Map(); // name -> promise of its value
@@ -19,13 +19,25 @@ function addScript(name) {
   }).finally(() => waiting.delete(name));
 }
 
+let fetchPiece = addScript;
+
+/** Pieces that are not in the page come from `fetch(name)` from now on. */
+export function takePiecesFrom(fetch) {
+  fetchPiece = fetch;
+}
+
 /** The value of a piece; the same promise for each call. */
 export function loadPiece(name) {
   if (!pieces.has(name)) {
     const inlined = document.getElementById(`data-${name}`);
-    pieces.set(name, inlined ? Promise.resolve(JSON.parse(inlined.textContent)) : addScript(name));
+    pieces.set(name, inlined ? Promise.resolve(JSON.parse(inlined.textContent)) : fetchPiece(name));
   }
   return pieces.get(name);
+}
+
+/** A case's pieces are not asked for again: a newer rendering has taken their place. */
+export function forgetPieces(item) {
+  for (const name of [item.details, ...Object.values(item.planes ?? {})]) pieces.delete(name);
 }
 
 /** The index is always in the page. */

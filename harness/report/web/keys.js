@@ -16,7 +16,7 @@ const kFilter = [
 
 const kSigns = [
   ['✕ ✓ –', 'failed, passed, skipped'], ['!  #  T', 'error, crash, time-out'], ['≈  ?', 'failed as known, passed against that'], ['∅', 'no golden file'],
-  ['hatched', 'not compared'], ['circle with cross', 'worst pixel'], ['square', 'pixel on the right'],
+  ['stripes up, down', 'not compared; undecidable'], ['circle with cross', 'worst pixel'], ['square', 'pixel on the right'],
   ['magenta', 'NaN; in a difference: no number tells'], ['yellow, cyan', '+infinity, −infinity'],
 ];
 

@@ -2,15 +2,17 @@
 import { drawCharts } from 'crossray/charts.js';
 import { choose } from 'crossray/choose.js';
 import { drawCubemaps } from 'crossray/cubemap.js';
-import { loadDetails, loadPlanes, readIndex } from 'crossray/data.js';
+import { forgetPieces, loadDetails, loadPlanes, readIndex } from 'crossray/data.js';
 import { h, say } from 'crossray/dom.js';
 import { drawCommands, drawHead, figuresTable } from 'crossray/head.js';
 import { listenToKeys, openDialog, openHelp } from 'crossray/keys.js';
 import { createList } from 'crossray/list.js';
+import { createLive } from 'crossray/live.js';
 import { formatShort, parseTolerance, unitOf } from 'crossray/numbers.js';
 import { createPanes } from 'crossray/panes.js';
 import { drawPixel } from 'crossray/pixel.js';
-import { compareDisplay, compareMask, measure, rankErrors } from 'crossray/planes.js';
+import { compareDisplay, compareMask, decidableMask, measure, rankErrors } from 'crossray/planes.js';
+import { drawRecord } from 'crossray/record.js';
 import { createStore } from 'crossray/state.js';
 import { drawToolbar } from 'crossray/toolbar.js';
 import { addTrace, drawTracePanel, findTrace } from 'crossray/trace.js';
@@ -33,25 +35,55 @@ const state = () => store.get();
 const update = (patch) => store.update(patch);
 const list = createList(index.cases, (name) => goToCase(name));
 const panes = createPanes(byId('panes'), { state, update, pick: (x, y) => update({ x, y }) });
+const live = index.live ? createLive(index, { state, update, showItem, showTrace: () => drawTraceOfPixel(), added: addCase }) : null;
 
 function goToCase(name) {
-  if (name) update({ page: '', case: name, a: '', o: '', e: -1, x: -1, y: -1, vs: 'expected', step: -1, z: 0, cx: 0.5, cy: 0.5 });
+  if (name) update({ page: '', p: '', case: name, a: '', o: '', e: -1, x: -1, y: -1, vs: 'expected', step: -1, z: 0, cx: 0.5, cy: 0.5 });
+}
+
+async function loadModel(item) {
+  const sources = Object.keys(item.planes ?? {});
+  const [details, ...planes] = await Promise.all([loadDetails(item), ...sources.map((source) => loadPlanes(item, source))]);
+  return { item, details, planesOf: new Map(sources.map((source, i) => [source, planes[i]])) };
 }
 
 async function loadCase(item) {
-  model = { item, details: null, planesOf: new Map() };
+  const loading = { item, details: null, planesOf: new Map() };
+  model = loading;
   list.select(item.name);
   drawAll();
-  const loading = model;
+  if (live) return void live.open(item);
   try {
-    loading.details = await loadDetails(item);
-    const sources = Object.keys(item.planes ?? {});
-    const planes = await Promise.all(sources.map((source) => loadPlanes(item, source)));
-    sources.forEach((source, i) => loading.planesOf.set(source, planes[i]));
+    Object.assign(loading, await loadModel(item));
   } catch (error) {
     say(error.message);
   }
   if (loading === model) drawAll();
+}
+
+// A new rendering of a case: it takes the place of the old one when all of it is there.
+async function showItem(item) {
+  const next = await loadModel(item);
+  if (state().case !== item.name) return;
+  forgetPieces(model.item);
+  const old = cases.get(item.name);
+  cases.set(item.name, item);
+  index.cases[index.cases.indexOf(old)] = item;
+  model = next;
+  if (JSON.stringify(old.results) !== JSON.stringify(item.results)) {
+    list.draw(state().f);
+    list.select(item.name, false);
+  }
+  drawAll();
+}
+
+// A case that was saved just now.
+function addCase(item) {
+  if (cases.has(item.name)) return;
+  cases.set(item.name, item);
+  index.cases.push(item);
+  list.draw(state().f);
+  list.select(state().case, false);
 }
 
 // The pixel to look at: the one asked for, else the worst that the judge found, else the largest difference.
@@ -86,7 +118,7 @@ function factsOf(plane) {
 }
 
 function planePane(key, { plane, title }, view, mask) {
-  return { key, title, width: plane.width, height: plane.height, bytes: drawPlane(plane, shown.type, view), mask, ...factsOf(plane) };
+  return { key, title, width: plane.width, height: plane.height, bytes: drawPlane(plane, shown.type, view), mask, decidable: picture.decidable, ...factsOf(plane) };
 }
 
 function differencePane() {
@@ -100,14 +132,17 @@ function differencePane() {
   return {
     key: 'difference', title: signed ? 'actual − expected' : 'difference', width: actual.plane.width, height: actual.plane.height,
     bytes: drawDifference(against.plane, actual.plane, picture, picture.mask, { multiplier: dx, signed: signed === 1, channel: ch, largest }),
-    mask: picture.mask, facts: facts.join(' · '), isLoud: endless > 0,
+    mask: picture.mask, decidable: picture.decidable, facts: facts.join(' · '), isLoud: endless > 0,
   };
 }
+
+const undecidableAbove = () => shown.expectation?.undecidableAbove ?? model.details?.conditioning?.bound ?? 1024;
 
 // Everything that depends on what is compared and not on how it is shown.
 function comparePlanes() {
   const { against, actual, expectation } = shown;
-  const found = { shown, mask: null, errors: null, rank: [], count: 0 };
+  const decidable = decidableMask(model.planesOf.get('conditioning'), shown.output, undecidableAbove());
+  const found = { shown, decidable, mask: null, errors: null, rank: [], count: 0 };
   if (expectation && actual) {
     const hits = model.planesOf.get(shown.backend)?.find((plane) => plane.name === 'HitSuccess');
     found.mask = compareMask(model.planesOf.get('expected') ?? [], expectation.index, hits);
@@ -128,6 +163,7 @@ function drawPictures() {
   if (picture.shown !== shown) picture = comparePlanes();
   if (planes.length === 0) {
     const why = shown.result?.reason;
+    if (live && !shown.result) return panes.message(h('p', {}, 'being rendered …'));
     panes.message(figuresTable(model.item, model.details) ?? '', why ? h('pre', {}, why) : '',
       h('p', {}, model.item.planes ? 'No plane of this output was kept.' : 'The run kept no planes of this case: it keeps those of cases with a failure, and with --planes all those of all.'));
     return;
@@ -144,7 +180,7 @@ function drawPictures() {
 
 function drawPixelPanel() {
   const [x, y] = currentPixel();
-  drawPixel(byId('pixel'), { shown, planesOf: model.planesOf, item: model.item, x, y, mask: picture.mask, outputs: index.outputs, rank: picture.rank, differing: picture.differing, update, goTo });
+  drawPixel(byId('pixel'), byId('outputs'), { live: live !== null, undecidableAbove: undecidableAbove(), shown, planesOf: model.planesOf, item: model.item, x, y, mask: picture.mask, outputs: index.outputs, rank: picture.rank, differing: picture.differing, update, goTo });
   drawHead(byId('case-head'), {
     item: model.item, details: model.details, shown, update,
     filterTag: (tag) => { byId('filter').value = `@${tag}`; update({ f: `@${tag}` }); },
@@ -154,15 +190,18 @@ function drawPixelPanel() {
 async function drawTraceOfPixel() {
   const [x, y] = currentPixel();
   const { item } = model;
-  const found = x >= 0 ? await findTrace(index, item.name, x, y, shown.backend) : null;
+  const asked = live && x >= 0 ? live.findTrace(x, y, shown) : null;
+  const found = asked ? asked.trace : !live && x >= 0 ? await findTrace(index, item.name, x, y, shown.backend) : null;
   if (item !== model.item) return;
   trace = found;
   const most = trace ? Math.max(...trace.backends.map((record) => record.steps.length)) : 0;
   const step = Math.min(state().step, most - 1);
-  document.body.classList.toggle('no-planes', !shown.actual && !shown.expected);
+  document.body.classList.toggle('no-planes', !live && !shown.actual && !shown.expected);
   panes.setOverlay({ worst: shown.actual && worstPixel(), pixel: x >= 0 ? [x, y] : null, trace, step });
   drawCommands(byId('commands'), { item, details: model.details, shown, index });
-  drawTracePanel(byId('trace'), { item, shown, x, y, trace, step, index, update, added: takeTrace });
+  drawRecord(byId('record'), trace, step);
+  drawTracePanel(byId('trace'), { item, shown, x, y, trace, step, index, update, added: takeTrace,
+    live: live && { backends: index.backends.map((each) => each.name), chosen: live.traceBackends(shown), error: asked?.error ?? '' } });
 }
 
 function takeTrace(given) {
@@ -189,7 +228,8 @@ function drawAll() {
 const kPlaces = new Set(['z', 'cx', 'cy']);
 const kOther = new Set(['f', 'page', 'error', 'cost', 'cube', 'yaw', 'pitch', 'fov', 'mip', 'glow']); // not of the pictures
 const kView = new Set(['mode', 'ev', 'off', 'norm', 'ch', 'gamma', 'dx', 'signed', 'layout', 'hatch', 'worst', 'grid']);
-const kPixel = new Set(['x', 'y', 'step', 'follow']);
+const kPixel = new Set(['x', 'y', 'step', 'follow', 'beside']);
+const kAsked = new Set(['p', 'b']); // of the inspector's server
 
 function react(_, keys) {
   if (keys.has('f')) {
@@ -201,9 +241,11 @@ function react(_, keys) {
   const item = cases.get(state().case);
   if (keys.has('case') && item) return void loadCase(item);
   if (!model.item) return;
+  if (live && [...kAsked].some((key) => keys.has(key))) live.changed();
   const isOnly = (allowed) => [...keys].every((key) => allowed.has(key) || kPlaces.has(key));
   if (isOnly(kPlaces)) panes.draw();
   else if (isOnly(kOther)) return;
+  else if (isOnly(kAsked)) drawTraceOfPixel();
   else if (isOnly(new Set(['split']))) panes.draw();
   else if (isOnly(kView)) {
     drawPictures();
@@ -298,7 +340,8 @@ function openRun() {
 
 function drawTop() {
   const { counts } = index.run;
-  byId('counts').replaceChildren(
+  if (live) byId('counts').replaceChildren(h('span', {}, 'inspector'), h('span', { class: 'dim' }, `${index.cases.length} cases`));
+  else byId('counts').replaceChildren(
     h('span', { class: counts.failed > 0 ? 'failed' : 'dim' }, `✕ ${counts.failed} failed`),
     h('span', { class: 'passed' }, `✓ ${counts.passed} passed`), h('span', { class: 'dim' }, `– ${counts.skipped} skipped`));
   const commit = index.run.commit ? ` · ${index.run.commit.slice(0, 8)}${index.run.modified ? '+' : ''}` : '';

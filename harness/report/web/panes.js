@@ -113,6 +113,7 @@ export function createPanes(box, hooks) {
     const top0 = layers[layers.length - 1].pane;
     const scale = 1 / zoom;
     if (state.hatch && top0.mask) drawHatch(context, top0, scale);
+    if (state.hatch && top0.decidable) drawHatch(context, { ...top0, mask: top0.decidable }, scale, true);
     if (state.grid >= 0) drawGrid(context, top0, state.grid, scale);
     if (overlay.trace) drawTrace(context, overlay.trace, overlay.step, scale);
     if (state.worst && overlay.worst) drawMarker(context, ...overlay.worst, 'worst', scale);

@@ -74,15 +74,28 @@ function otherOutputs({ shown, planesOf, item, x, y, outputs, update }) {
   return rows;
 }
 
-/** `context`: {shown, planesOf, item, x, y, mask, outputs, rank, update, goTo(step)}. */
-export function drawPixel(box, context) {
+const kCauses = ['', 'depth', 'the normal', 'the camera', 'a setting', 'a probe', 'history or motion', 'all inputs together'];
+
+// What the run measured of conditioning here, where the pixel is beyond its bound.
+function undecidableLine({ shown, planesOf, undecidableAbove, x, y }) {
+  const planes = planesOf.get('conditioning');
+  const at = (kind) => planes?.find((plane) => plane.name === `${shown.output}@${kind}`)?.at(x, y);
+  const condition = at('condition');
+  if (!(condition > undecidableAbove)) return null;
+  const cause = kCauses[at('cause')] ?? '';
+  return h('p', { class: 'warn' }, `undecidable here: ${shown.output} ${condition === Infinity ? 'flips' : `moves by ${formatShort(condition, 3)} ulp`} for an ulp of ${cause || 'an input'}`);
+}
+
+/** `context`: {shown, planesOf, item, x, y, mask, outputs, rank, update, goTo(step), undecidableAbove, live}. */
+export function drawPixel(box, outputsBox, context) {
   const { shown, x, y, update, rank } = context;
   const plane = shown.actual?.plane ?? shown.expected?.plane;
   if (!plane || x < 0) {
-    box.replaceChildren(h('h2', {}, 'Pixel'), h('p', { class: 'dim' }, 'No planes of this case are in the report. The run keeps those of cases with a failure, or all with --planes all.'));
+    outputsBox.replaceChildren();
+    box.replaceChildren(h('h2', {}, 'Pixel'), h('p', { class: 'dim' }, context.live ? 'Nothing is rendered yet.' : 'No planes of this case are in the report. The run keeps those of cases with a failure, or all with --planes all.'));
     return;
   }
-  const isOpen = new Set([...box.querySelectorAll('details[open] .output-name')].map((each) => each.textContent));
+  const isOpen = new Set([...outputsBox.querySelectorAll('details[open] .output-name')].map((each) => each.textContent));
   const number = (label, value, max, change) => h('label', {}, label, h('input', {
     type: 'number', min: '0', max: String(max), value: String(value), onchange: (event) => change(Math.min(max, Math.max(0, Math.trunc(Number(event.target.value) || 0)))),
   }));
@@ -93,6 +106,7 @@ export function drawPixel(box, context) {
     h('button', { type: 'button', class: 'small', 'aria-keyshortcuts': 'Y', onclick: () => context.goTo(-1) }, '‹ larger'),
     h('button', { type: 'button', class: 'small', 'aria-keyshortcuts': 'U', onclick: () => context.goTo(1) }, 'smaller ›'),
     h('span', { class: 'dim' }, place >= 0 ? `${place + 1} of ${context.differing} by difference` : rank.length > 0 ? 'no difference here' : ''));
-  redraw(box, h('h2', {}, 'Pixel'), coordinates, mainTable(context), sourceLine(context), h('h3', {}, 'Every output'), otherOutputs(context));
-  for (const each of box.querySelectorAll('details')) each.open = isOpen.has(each.querySelector('.output-name').textContent);
+  redraw(box, h('h2', {}, 'Pixel'), coordinates, mainTable(context), sourceLine(context), undecidableLine(context));
+  redraw(outputsBox, h('h3', {}, 'Every output'), otherOutputs(context));
+  for (const each of outputsBox.querySelectorAll('details')) each.open = isOpen.has(each.querySelector('.output-name').textContent);
 }

@@ -87,6 +87,13 @@ export function compareMask(expectedPlanes, index, hitSuccess) {
   return mask;
 }
 
+/** 0 where the condition of a pixel's question is above the bound; null where that is nowhere, or was not measured. */
+export function decidableMask(conditioningPlanes, output, bound) {
+  const plane = conditioningPlanes?.find((each) => each.name === `${output}@condition`);
+  if (!plane || !plane.data.some((condition) => condition > bound)) return null;
+  return Uint8Array.from(plane.data, (condition) => (condition > bound ? 0 : 1));
+}
+
 /**
  * Errors by pixel, by the type's own measure, and which of them are beyond the bounds (all, where there are none to
  * tell); 0 outside the mask.

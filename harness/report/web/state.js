@@ -20,6 +20,9 @@ export const kDefaults = {
   z: 0, cx: 0.5, cy: 0.5, // zoom (0: fit), and the image's place in the middle of a pane
   step: -1, // of the trace
   follow: 0, // the pixel follows the mouse
+  p: '', // inspector: parameters that were changed, "material.ior=1.7;..."
+  b: '', // inspector: backends to render on, by commas; empty: the usual ones
+  beside: '', // inspector: the second backend of a trace, or "none"; empty: the one that tells most
 };
 
 /** Hash to state. Unknown keys and numbers that are none are left out. */
@@ -39,7 +42,7 @@ export function formatHash(state) {
   for (const [key, value] of Object.entries(kDefaults)) {
     if (state[key] !== value) parts.set(key, typeof value === 'number' ? String(Number(state[key].toPrecision(6))) : state[key]);
   }
-  return '#' + parts.toString().replaceAll('%2F', '/').replaceAll('%2C', ',').replaceAll('%5B', '[').replaceAll('%5D', ']');
+  return '#' + parts.toString().replaceAll('%2F', '/').replaceAll('%2C', ',').replaceAll('%5B', '[').replaceAll('%5D', ']').replaceAll('%3D', '=').replaceAll('%3B', ';');
 }
 
 /** Holds the state; `onChange(state, keys)` hears each change once, with the keys that changed. */

@@ -1,4 +1,5 @@
 // How the pictures are drawn: one control for each key of the state that concerns it.
+import { kNoBackend } from 'crossray/choose.js';
 import { h, redraw } from 'crossray/dom.js';
 import { kModes } from 'crossray/views.js';
 
@@ -27,7 +28,7 @@ function check(label, value, change, title) {
 export function drawToolbar(box, { state, shown, sources, update }) {
   if (box.contains(document.activeElement) && document.activeElement.type === 'range') return; // being moved
   const against = { expected: 'expected' };
-  for (const source of sources) if (source !== 'expected' && source !== shown.backend) against[source] = source;
+  for (const source of sources) if (!kNoBackend.has(source) && source !== shown.backend) against[source] = source;
   const channels = { '-1': 'all' };
   const count = shown.actual?.plane.channels ?? shown.expected?.plane.channels ?? 1;
   if (count > 1) ['x', 'y', 'z', 'w'].slice(0, count).forEach((name, i) => (channels[i] = shown.type === 'color' ? 'rgb'[i] : name));
@@ -45,7 +46,7 @@ export function drawToolbar(box, { state, shown, sources, update }) {
     select('difference', state.dx, { 1: '×1', 4: '×4', 16: '×16', 64: '×64', 1024: '×1024' }, (value) => update({ dx: Number(value) })),
     check('signed', state.signed, (value) => update({ signed: value })),
     select('cells', state.grid, levels, (value) => update({ grid: Number(value) })),
-    check('hatch', state.hatch, (value) => update({ hatch: value }), 'stripes over the pixels that are not compared'),
+    check('hatch', state.hatch, (value) => update({ hatch: value }), 'stripes over the pixels that are not compared (rising) or cannot be decided (falling)'),
     check('worst', state.worst, (value) => update({ worst: value }), 'a circle with a cross at the pixel with the largest error'),
     h('button', { type: 'button', class: 'small', onclick: () => update({ z: 0, cx: 0.5, cy: 0.5 }) }, 'fit'),
     h('button', { type: 'button', class: 'small', onclick: () => update({ mode: 'auto', ev: 0, off: 0, norm: 0, ch: -1, gamma: -1, dx: 1, signed: 0 }) }, 'reset'));

@@ -1,20 +1,22 @@
 // The bottom: what the ray of the pixel did, when a trace of it is at hand; else the command that prints it.
 import { traceCommand } from 'crossray/commands.js';
 import { loadPiece } from 'crossray/data.js';
+import { depthChart } from 'crossray/depth_chart.js';
 import { commandLine, h, redraw, say } from 'crossray/dom.js';
 import { formatShort } from 'crossray/numbers.js';
 
 const dropped = []; // traces that a person gave to the page
 
-function revive(value) {
-  if (Array.isArray(value)) return value.map(revive);
-  if (value && typeof value === 'object') return Object.fromEntries(Object.entries(value).map(([key, each]) => [key, revive(each)]));
+/** A trace's JSON with its numbers as numbers: NaN and infinities are strings there. */
+export function reviveTrace(value) {
+  if (Array.isArray(value)) return value.map(reviveTrace);
+  if (value && typeof value === 'object') return Object.fromEntries(Object.entries(value).map(([key, each]) => [key, reviveTrace(each)]));
   return value === 'NaN' ? NaN : value === 'Infinity' ? Infinity : value === '-Infinity' ? -Infinity : value;
 }
 
 /** Takes the text of a trace; throws where it is none. Returns it. */
 export function addTrace(text) {
-  const trace = revive(JSON.parse(text));
+  const trace = reviveTrace(JSON.parse(text));
   if (trace.schema !== 'crossray-trace/1') throw new Error('no JSON of crossray trace --json');
   dropped.unshift(trace);
   return trace;
@@ -26,7 +28,7 @@ export async function findTrace(index, name, x, y, backend) {
   if (given) return given;
   const all = index.traces.filter((trace) => trace.case === name && trace.x === x && trace.y === y);
   const known = all.find((trace) => trace.backends.includes(backend)) ?? all[0];
-  return known ? revive(await loadPiece(known.piece)) : null;
+  return known ? reviveTrace(await loadPiece(known.piece)) : null;
 }
 
 /** Pixels of a case that have a trace. */
@@ -93,36 +95,6 @@ function verdict(trace) {
   return trace.backends.length > 1 && h('p', { class: 'dim' }, `${trace.backends.map((record) => record.backend).join(' and ')} take the same way to the same kind of answer.`);
 }
 
-function depthChart(trace, chosen) {
-  const record = trace.backends[0];
-  const steps = record.steps.filter((step) => Number.isFinite(step.rayLinearDepth));
-  if (steps.length < 2) return null;
-  const [width, height] = [250, 96];
-  const depths = steps.flatMap((step) => [step.rayLinearDepth, Math.min(step.nearest, 1e4)]).filter((v) => v > 0 && Number.isFinite(v));
-  const [low, high] = [Math.min(...depths), Math.min(Math.max(...depths), 4 * Math.max(...steps.map((s) => s.rayLinearDepth)))];
-  const x = (i) => 8 + (i / (steps.length - 1)) * (width - 16);
-  const y = (v) => height - 8 - ((Math.min(v, high) - low) / (high - low || 1)) * (height - 20);
-  const line = (key) => steps.map((step, i) => `${i === 0 ? 'M' : 'L'}${x(i).toFixed(1)} ${y(step[key]).toFixed(1)}`).join('');
-  const svg = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
-  svg.setAttribute('viewBox', `0 0 ${width} ${height}`);
-  svg.setAttribute('role', 'img');
-  svg.setAttribute('aria-label', 'Depth of the ray and nearest depth of the scene at each step');
-  svg.setAttribute('class', 'depth-chart');
-  const add = (tag, attributes, text) => {
-    const part = document.createElementNS('http://www.w3.org/2000/svg', tag);
-    for (const [name, value] of Object.entries(attributes)) part.setAttribute(name, value);
-    if (text) part.textContent = text;
-    svg.append(part);
-  };
-  add('path', { d: line('nearest'), class: 'scene' });
-  add('path', { d: line('rayLinearDepth'), class: 'ray' });
-  if (steps[chosen]) add('circle', { cx: x(chosen), cy: y(steps[chosen].rayLinearDepth), r: 3.5, class: 'here' });
-  add('text', { x: 8, y: 11 }, `${formatShort(high)} m`);
-  add('text', { x: 8, y: height - 1 }, `${formatShort(low)} m`);
-  add('text', { x: width - 8, y: 11, 'text-anchor': 'end' }, 'ray solid, scene dashed');
-  return svg;
-}
-
 function fileInput(added) {
   return h('label', { class: 'file' }, 'or open its JSON: ', h('input', { type: 'file', accept: '.json,application/json', onchange: async (event) => {
     try {
@@ -133,28 +105,44 @@ function fileInput(added) {
   } }));
 }
 
-/** `context`: {item, shown, x, y, trace (or null), step, index, update, added(trace)}. */
+// The inspector: which backend is traced beside the shown one.
+function besideSelect({ backends, chosen, update }) {
+  return h('label', { class: 'control' }, 'beside it ', h('select', { onchange: (event) => update({ beside: event.target.value }) },
+    h('option', { value: 'none', selected: chosen.length < 2 }, 'none'),
+    backends.filter((name) => name !== chosen[0]).map((name) => h('option', { value: name, selected: name === chosen[1] }, name))));
+}
+
+function withoutTrace({ item, shown, x, y, index, update, added, live }) {
+  if (live) return [h('p', { class: live.error ? 'failed' : 'dim' }, live.error ? `✕ ${live.error}` : x < 0 ? 'Click a pixel: its ray is traced and drawn.' : 'being traced …')];
+  const others = tracedPixels(index, item.name);
+  const partner = shown.isAgainstBackend ? [shown.against.title] : shown.expectation?.source.startsWith('agree with ')
+    ? [shown.expectation.source.slice('agree with '.length)] : [];
+  return [
+    shown.result?.traceNote ? h('p', { class: 'dim' }, `The run kept no trace of the worst pixel: ${shown.result.traceNote}.`) : '',
+    x >= 0 ? commandLine('shows its ray', `${traceCommand(item, x, y, [shown.backend, ...partner])}`) : '',
+    x >= 0 ? commandLine('into this report', `${traceCommand(item, x, y, [shown.backend, ...partner], true)} > pixel.json && crossray report ${index.runFolder} --trace pixel.json`) : '',
+    fileInput(added),
+    others.length > 0 ? h('p', { class: 'dim' }, 'traced: ', others.map(([px, py]) => h('button', { type: 'button', class: 'small', onclick: () => update({ x: px, y: py }) }, `${px}, ${py}`))) : '',
+  ];
+}
+
+/**
+ * `context`: {item, shown, x, y, trace (or null), step, index, update, added(trace), live}. `live`, in the inspector:
+ * {backends: names, chosen: those that are traced, error}.
+ */
 export function drawTracePanel(box, context) {
-  const { item, shown, x, y, trace, step, index, update, added } = context;
-  const title = h('h2', {}, x >= 0 ? `Trace of pixel ${x}, ${y}` : 'Trace');
-  if (!trace) {
-    const others = tracedPixels(index, item.name);
-    const partner = shown.isAgainstBackend ? [shown.against.title] : shown.expectation?.source.startsWith('agree with ')
-      ? [shown.expectation.source.slice('agree with '.length)] : [];
-    redraw(box, title,
-      shown.result?.traceNote ? h('p', { class: 'dim' }, `The run kept no trace of the worst pixel: ${shown.result.traceNote}.`) : '',
-      x >= 0 ? commandLine('shows its ray', `${traceCommand(item, x, y, [shown.backend, ...partner])}`) : '',
-      x >= 0 ? commandLine('into this report', `${traceCommand(item, x, y, [shown.backend, ...partner], true)} > pixel.json && crossray report ${index.runFolder} --trace pixel.json`) : '',
-      fileInput(added),
-      others.length > 0 ? h('p', { class: 'dim' }, 'traced: ', others.map(([px, py]) => h('button', { type: 'button', class: 'small', onclick: () => update({ x: px, y: py }) }, `${px}, ${py}`))) : '');
-    return;
-  }
+  const { x, y, trace, step, update, live } = context;
+  const at = trace ? trace.pixel : [x, y];
+  const title = h('h2', {}, at[0] >= 0 ? `Trace of pixel ${at.join(', ')}` : 'Trace');
+  const beside = live ? besideSelect({ ...live, update }) : '';
+  if (!trace) return redraw(box, h('div', { class: 'trace-head' }, title, beside), withoutTrace(context));
   const scrolled = box.querySelector('.steps-box')?.scrollTop ?? 0;
   const hasSteps = trace.backends.some((record) => record.steps.length > 0);
-  const table = hasSteps && h('div', { class: 'steps-box', tabindex: '0', role: 'region', 'aria-label': 'Steps' }, stepTable(trace, step, (value) => update({ step: value })));
-  title.append(h('span', { class: 'dim' }, ' · drawn: a dot a step, square the chosen cell, ring a hit, cross none'));
-  redraw(box, title, h('div', { class: 'trace-facts' }, factLines(trace), verdict(trace)),
-    hasSteps && h('div', { class: 'trace-body' }, table, depthChart(trace, step) ?? ''));
+  const choose = (value) => update({ step: value });
+  const table = hasSteps && h('div', { class: 'steps-box', tabindex: '0', role: 'region', 'aria-label': 'Steps' }, stepTable(trace, step, choose));
+  title.append(h('span', { class: 'dim' }, ' · drawn: diamond the start; dot a step that skips, square one that looks closer; ring a hit, cross none'));
+  redraw(box, h('div', { class: 'trace-head' }, title, beside), h('div', { class: 'trace-facts' }, factLines(trace), verdict(trace)),
+    hasSteps && h('div', { class: 'trace-body' }, table, depthChart(trace, step, choose) ?? ''));
   if (!hasSteps) return;
   table.scrollTop = scrolled;
   table.querySelector('tr.shown')?.scrollIntoView({ block: 'nearest' });
