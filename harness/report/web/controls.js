@@ -3,7 +3,7 @@
 import { h } from 'crossray/dom.js';
 import { clampValue, counts, sliderRange, valueOf } from 'crossray/parameters.js';
 
-const kOpen = new Set(['material', 'projection', 'camera', 'scene']);
+const kFirst = ['material', 'projection', 'camera']; // open, and before the others
 const idOf = (path) => `control-${path.replaceAll('.', '-')}`;
 
 function numberInputs(control, change) {
@@ -13,7 +13,7 @@ function numberInputs(control, change) {
     if (value === undefined) return field && (field.value = ''); // what is no number changes nothing
     change(clampValue(control, value));
   };
-  const slider = h('input', { type: 'range', min, max, step, 'aria-label': `${control.group} ${control.label}, slider`,
+  const slider = h('input', { type: 'range', id: `${idOf(control.path)}-slider`, min, max, step, 'aria-label': `${control.group} ${control.label}, slider`,
     oninput: (event) => take(event.target.value) });
   const box = h('input', { type: 'number', id: idOf(control.path), step: 'any', min: control.minimum, max: control.maximum,
     onchange: (event) => take(event.target.value, event.target) });
@@ -58,9 +58,10 @@ export function createControls(box, change) {
     const byGroup = new Map();
     rows = controls.map((control) => makeRow(control, change));
     for (const row of rows) byGroup.set(row.control.group, [...(byGroup.get(row.control.group) ?? []), row]);
-    groups = [...byGroup].map(([name, members]) => {
+    const rank = ([name]) => (kFirst.indexOf(name.split('.')[0]) + kFirst.length + 1) % (kFirst.length + 1);
+    groups = [...byGroup].sort((a, b) => rank(a) - rank(b)).map(([name, members]) => {
       const count = h('span', { class: 'changed' });
-      const element = h('details', { class: 'parameters', open: kOpen.has(name) }, h('summary', {}, name || 'case', count), members.map((row) => row.element));
+      const element = h('details', { class: 'parameters', open: kFirst.some((first) => name === first || name.startsWith(`${first}.`)) }, h('summary', {}, name || 'case', count), members.map((row) => row.element));
       return { element, members, count };
     });
     box.replaceChildren(...(groups.length > 0 ? groups.map((group) => group.element) : [h('p', { class: 'dim' }, 'This case has no parameters.')]));

@@ -46,7 +46,7 @@ function describeBackends(item, results) {
 
 function worstResult(results) {
   const order = { failed: 0, skipped: 1, passed: 2 };
-  return [...results].sort((a, b) => order[a.tally] - order[b.tally])[0] ?? { verdict: 'skip', tally: 'skipped' };
+  return [...results].sort((a, b) => order[a.tally] - order[b.tally])[0] ?? { verdict: 'not rendered', tally: 'skipped' }; // in the inspector
 }
 
 // Names may break behind these signs.

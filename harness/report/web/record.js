@@ -2,7 +2,7 @@
 import { h, redraw } from 'crossray/dom.js';
 import { formatShort } from 'crossray/numbers.js';
 
-const number = (value) => formatShort(value, 6);
+const number = (value) => formatShort(value, 5);
 const vector = (values) => values.map(number).join(', ');
 const isMarch = (record) => record.tracingModel !== 'none' && !record.tracingModel.startsWith('proxy');
 
