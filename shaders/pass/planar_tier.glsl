@@ -81,7 +81,7 @@ PlanarTier askPlanarProbes(View view, PixelSurface surface, vec3 originWS, vec3 
 {
     PlanarTier tier =
         PlanarTier(hierarchyWeight, 0.0, vec3(0.0), vec4(0.0), PlanarLookup(vec2(0.0), 0.0, kPlanarNotAsked));
-    int count = planarParams.settings.x;
+    int count = min(planarParams.settings.x, CROSSRAY_MAX_PROBES);
     for (int planar = 0; planar < count; ++planar) {
         int item = planarParams.settings.y + planar;
         float influence =

@@ -135,7 +135,7 @@ ProbeView readProfileProbe(int index, vec3 originWS, vec3 dirWS)
 // Asks the probes for what the tiers before have left. A probe without a share is not read.
 ProbeTier askProfileProbes(PixelSurface surface, vec3 originWS, vec3 dirWS, float hierarchyWeight)
 {
-    int count = probeParams.settings.x;
+    int count = min(probeParams.settings.x, CROSSRAY_MAX_PROBES);
     float left = 1.0 - saturate(hierarchyWeight);
     UrpPair pair = makeUrpPair();
     UrpWeights shares = UrpWeights(0.0, 0.0, 1.0);

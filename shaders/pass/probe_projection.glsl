@@ -10,7 +10,7 @@
 int findFirstProbe(PixelSurface surface, vec3 dirWS)
 {
     int first = -1;
-    int count = probeParams.settings.x;
+    int count = min(probeParams.settings.x, CROSSRAY_MAX_PROBES);
     for (int index = 0; index < count && first < 0; ++index) {
         float weight =
             computeProbeWeight(loadProbeInfluence(index), surface.positionWS, surface.normalWS, dirWS).weight;

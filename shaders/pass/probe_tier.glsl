@@ -84,7 +84,7 @@ ProbeTier askProbes(PixelSurface surface, vec3 originWS, vec3 dirWS, float hiera
                                                probeParams.settings.y);
     }
     ProbeTier tier = ProbeTier(hierarchyWeight, 0.0, vec3(0.0), vec4(0.0), vec3(0.0), 0.0);
-    int count = probeParams.settings.x;
+    int count = min(probeParams.settings.x, CROSSRAY_MAX_PROBES);
     for (int index = 0; index < count; ++index) {
         float asked =
             computeProbeWeight(loadProbeInfluence(index), surface.positionWS, surface.normalWS, dirWS).weight;

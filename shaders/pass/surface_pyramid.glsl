@@ -44,7 +44,7 @@ void buildSurfaceLevel(View view, CellRect cells, int level)
 void buildSurfaceCells(ivec2 cell)
 {
     int first = surfaceParams.range.x;
-    int last = surfaceParams.range.y;
+    int last = min(surfaceParams.range.y, CROSSRAY_MAX_PYRAMID_LEVELS - 1);
     ivec2 size = finerSurfaceSize(last);
     if (cell.x >= size.x || cell.y >= size.y) return;
     View view = loadSurfaceView();

@@ -7,7 +7,8 @@
 #include "crossray/core/view.glsl"
 
 // xy: unit direction in NDC (y up). z: change of 1/linearDepth (1/m) for a unit of way in NDC. A ray without length on
-// screen (straight at the eye or away from it) and an origin that is not in front of the camera give 0.
+// screen (straight at the eye or away from it), an origin that is not in front of the camera, and what no number
+// expresses (an origin within 1e-12 m or so of the eye's plane, a view without a field) give 0.
 vec3 computeRayDirNDC(View view, vec3 originWS, vec3 dirWS)
 {
     vec3 originVS = positionVSFromWS(view, originWS);
@@ -21,7 +22,8 @@ vec3 computeRayDirNDC(View view, vec3 originWS, vec3 dirWS)
     float way = length(change);
     // Shorter than this is rounding: the direction would be noise.
     if (!(way > 1e-6 / linearDepth)) return vec3(0.0, 0.0, 0.0);
-    return vec3(change / way, -depthChange / (linearDepth * linearDepth * way));
+    vec3 found = vec3(change / way, -depthChange / (linearDepth * linearDepth * way));
+    return choose(isFinite(found), found, vec3(0.0, 0.0, 0.0));
 }
 
 #endif

@@ -50,7 +50,7 @@ float linearDepthFromDevice(View view, float deviceDepth)
 // The stored value for a depth in metres; depths of 0 and less (perspective) give the near plane's.
 float deviceDepthFromLinear(View view, float linearDepth)
 {
-    float inverse = 1.0 / choose(linearDepth > 0.0, linearDepth, view.nearDistance);
+    float inverse = 1.0 / max(choose(linearDepth > 0.0, linearDepth, view.nearDistance), 1e-30);
     return view.depthA + view.depthB * choose(view.orthographic, linearDepth, inverse);
 }
 

@@ -33,7 +33,7 @@
 struct HizSettings {
     int minLevel;      // taken into [0, levels - 1]
     int maxLevel;      // taken into [minLevel, levels - 1]
-    int maxIterations; // below 1: no step, kHitReasonIterationCap
+    int maxIterations; // below 1: no step, kHitReasonIterationCap; above kMostMarchSteps: that
     float depthBias;   // metres that a surface is thick; negative and NaN count as 0
 };
 
@@ -112,7 +112,8 @@ HizSettings sanitizeHizSettings(HizSettings settings)
     int last = max(depthPyramidLevelCount(), 1) - 1;
     int minLevel = clamp(settings.minLevel, 0, last);
     float bias = choose(settings.depthBias > 0.0, min(settings.depthBias, 1e30), 0.0);
-    return HizSettings(minLevel, clamp(settings.maxLevel, minLevel, last), max(settings.maxIterations, 0), bias);
+    return HizSettings(minLevel, clamp(settings.maxLevel, minLevel, last),
+                       clamp(settings.maxIterations, 0, kMostMarchSteps), bias);
 }
 
 // Where a ray comes into a cell, or starts.

@@ -35,7 +35,7 @@ const int kLinearRuns = -1;                         // in place of a reason, whi
 struct LinearSettings {
     float stride;      // pixels between samples; read where steps is below 1. Not above 0 and NaN: 1
     int steps;         // parts of the way, at least 1; below 1: by stride
-    int maxIterations; // below 1: no sample, kHitReasonIterationCap
+    int maxIterations; // below 1: no sample, kHitReasonIterationCap; above kMostMarchSteps: that
     float depthBias;   // metres that a surface is thick; negative and NaN count as 0
     int bisections;    // halvings after a crossing; below 1: none
 };
@@ -88,7 +88,7 @@ float fetchAffineDepth(View view, ivec2 pixel)
 
 // Change a pixel along one axis, from the side whose two neighbours go on straight to the pixel: the other may belong
 // to another surface, also where it touches. Within 2 pixels of the image's border the other side decides; 0 in images
-// of less than 5 pixels.
+// of less than 5 pixels, and where that side shows no surface: the way to its depth of 1e30 m is no slope.
 float computeLinearGradient(View view, ivec2 pixel, ivec2 axis, int place, int last)
 {
     bool hasBefore = place >= 2;
@@ -103,7 +103,8 @@ float computeLinearGradient(View view, ivec2 pixel, ivec2 axis, int place, int l
     bool isStraighter = bendBefore < bendAfter;
     bool bothSides = hasBefore && hasAfter;
     bool takesBefore = bothSides ? isStraighter : hasBefore;
-    return choose(takesBefore, here - before, after - here);
+    bool isSurface = choose(takesBefore, before, after) > affineDepthFromLinear(view.orthographic, kNoSurfaceDepth);
+    return choose(isSurface, choose(takesBefore, here - before, after - here), 0.0);
 }
 
 LinearStart makeLinearStart(View view, ScreenRay ray, ivec2 lastPixel)
@@ -165,7 +166,7 @@ LinearResult traceLinear(View view, vec3 originWS, vec3 dirWS, LinearSettings se
     LinearStart start = makeLinearStart(view, ray, lastPixel);
     bool startsInFront = start.inFront || !starts;
     LinearState state = LinearState(0, 0.0, 0.0, 0.0, 0.0, 0, startsInFront, !startsInFront);
-    int limit = choose(starts, max(settings.maxIterations, 0), 0);
+    int limit = choose(starts, clamp(settings.maxIterations, 0, kMostMarchSteps), 0);
     int reason = choose(isRay, kHitReasonOffScreen, ray.status);
     reason = choose(starts, kLinearRuns, reason);
     int iterations = 0;

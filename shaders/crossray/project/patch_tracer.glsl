@@ -25,7 +25,7 @@
 
 struct PatchTracerSettings {
     int maxLevel;      // taken into [0, levels - 1]; 0 walks pixel after pixel
-    int maxIterations; // below 1: no step, kHitReasonIterationCap
+    int maxIterations; // below 1: no step, kHitReasonIterationCap; above kMostMarchSteps: that
     float caution;     // clearance that a hidden ray needs to have passed: 0 greedy, 0.4 balanced, 1 and more cautious;
                        // negative and NaN count as 0
     float depthError;  // affine depth by which the buffer may be wrong: for depth in whole numbers half a step divided
@@ -362,7 +362,7 @@ PatchState descendPatch(PatchWalk walk, PatchCell cell, PatchState state, float 
 float computeConfidence(float clearance)
 {
     if (clearance > 0.5 * kNoClearance) return 0.998;
-    float logarithm = log(max(clearance, 1e-4));
+    float logarithm = log(choose(clearance > 1e-4, clearance, 1e-4));
     float logit = min(2.2 + 1.3 * logarithm, 3.25 + 2.5 * logarithm);
     return min(1.0 / (1.0 + exp(-logit)), 0.995);
 }
@@ -413,7 +413,8 @@ PatchTraceResult tracePatches(View view, vec3 originWS, vec3 dirWS, PatchTracerS
     PatchWalk walk = makePatchWalk(ray, startPixel, settings.depthError > 0.0 ? settings.depthError : 0.0);
     HiddenStart noStart = HiddenStart(startPixel, 0.0);
     PatchState state = PatchState(startPixel, min(kPatchStartLevel, maxLevel), true, noStart, kNoClearance);
-    for (int i = 0; i < settings.maxIterations; ++i) {
+    int limit = min(settings.maxIterations, kMostMarchSteps);
+    for (int i = 0; i < limit; ++i) {
         PatchCell cell = enterPatchCell(view, walk, state);
         counts.iterations = i + 1;
         counts.maxUsedLevel = max(counts.maxUsedLevel, state.level);

@@ -55,6 +55,8 @@ float screenRayAffineDepth(ScreenRay ray, float s)
 }
 
 const float kNever = 1e30; // s of what does not happen
+// Rounds of any march, whatever its settings ask for: some drivers end every loop at 65535 and say nothing.
+const int kMostMarchSteps = 65534;
 
 // Where a ray crosses the border between pixels border - 1 and border along one axis. Every walk asks by this
 // expression alone, so that all of them agree on the order of the pixels, whatever rounding does.
