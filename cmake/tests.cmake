@@ -54,6 +54,13 @@ if(TARGET crossray_run)
   add_dependencies(test_stability worker_program)
 endif()
 
+# Random cases from the schema, on several drivers.
+file(GLOB fuzz_test_sources CONFIGURE_DEPENDS tests/fuzz/*.cpp)
+if(TARGET test_run)
+  crossray_test_program(test_fuzz SOURCES ${fuzz_test_sources} USES crossray_run PREFIX fuzz.)
+  add_dependencies(test_fuzz worker_program crossray)
+endif()
+
 # The shader library as C++: the same tests once in float and once in double, and the same .glsl files that ship.
 file(GLOB shader_test_sources CONFIGURE_DEPENDS tests/shader/*_test.cpp)
 foreach(precision 32 64)
@@ -72,8 +79,8 @@ if(TARGET crossray_scene)
   set_source_files_properties(tests/shader/yardstick/hiz.cpp PROPERTIES COMPILE_OPTIONS -fsingle-precision-constant)
 endif()
 # And as GLSL.
-file(GLOB glsl_test_sources CONFIGURE_DEPENDS tests/shader/glsl/*_test.cpp)
-crossray_test_program(test_shader_glsl SOURCES ${glsl_test_sources} USES crossray_compile)
+file(GLOB glsl_test_sources CONFIGURE_DEPENDS tests/shader/glsl/*.cpp)
+crossray_test_program(test_shader_glsl SOURCES ${glsl_test_sources} USES crossray_compile crossray_case)
 
 # The binary from outside.
 file(GLOB cli_test_sources CONFIGURE_DEPENDS tests/cli/*.cpp)
