@@ -34,6 +34,16 @@ struct PlaneSource {
     std::string file; // below the run's folder
 };
 
+// Where a run with --conditioning keeps what it measured of a case: beside the case's other planes.
+std::string conditioningFile(const CaseResult& testCase)
+{
+    std::string known = testCase.expectedFile;
+    for (const BackendResult& result : testCase.backends) {
+        if (known.empty()) known = result.planesFile;
+    }
+    return known.empty() ? "" : (fs::path(known).parent_path() / "conditioning.exr").generic_string();
+}
+
 class Report {
   public:
     Report(const RunResult& run, const ReportOptions& options, const ReadPlanes& readPlanes, const WriteFile& writeFile)
@@ -214,6 +224,9 @@ class Report {
                 sources.push_back({caseIndex, result.backend, result.planesFile});
             }
         }
+        const std::string conditioning = conditioningFile(testCase);
+        if (!conditioning.empty() && options_.hasFile && options_.hasFile(conditioning))
+            sources.push_back({caseIndex, "conditioning", conditioning});
         return sources;
     }
 
@@ -339,6 +352,7 @@ ReportSummary writeReport(const RunResult& run, const fs::path& runFolder, const
 {
     ReportOptions options = given;
     addTracesOfRun(run, runFolder, options);
+    options.hasFile = [&](const std::string& file) { return fs::exists(runFolder / file); };
     const auto read = [&](const std::string& file) { return readExr(runFolder / file); };
     if (options.isSingle) {
         if (target.has_parent_path()) makeFolder(target.parent_path());

@@ -31,6 +31,8 @@ struct ReportCubemap {
 };
 
 struct ReportOptions {
+    // Whether the run kept a file beside those that its JSON names; none where it is not set.
+    std::function<bool(const std::string& file)> hasFile;
     bool isSingle = false;              // one file that holds all its data
     size_t maxBytes = kMaxSingleBytes;  // of that file; what does not fit is left out, and the page says what
     std::string runFolder = "out/last"; // as the commands on the page name it

@@ -37,6 +37,24 @@ nlohmann::json readScript(const std::string& script)
 
 } // namespace
 
+// What was measured of conditioning lies beside the planes of its case, and goes with them.
+TEST(Report, takesTheConditioningThatTheRunKeptOfACase)
+{
+    ReportFixture fixture;
+    const std::string file = "planes/hiz/far_depth/conditioning.exr";
+    fixture.planes[file] = {Plane("HitDepth@condition", 4, 2, 1, 0.0)};
+    ReportOptions options;
+    options.hasFile = [&](const std::string& asked) { return asked == file; };
+    const auto files = fixture.make(options);
+    const auto index = readPiece(files.at("index.html"), "index");
+    const auto piece =
+        readScript(files.at("data/" + index["cases"][0]["planes"]["conditioning"].get<std::string>() + ".js"));
+    EXPECT_EQ(piece["planes"][0]["name"], "HitDepth@condition");
+    EXPECT_FALSE(index["cases"][1].contains("planes"));
+    EXPECT_FALSE(
+        readPiece(ReportFixture().make({}).at("index.html"), "index")["cases"][0]["planes"].contains("conditioning"));
+}
+
 TEST(Report, folderHoldsThePageAndItsDataPieceByPiece)
 {
     const auto files = ReportFixture().make({});

@@ -71,6 +71,15 @@ max_level = 6
 ${more}`;
 }
 
+/** An expectation that such a case meets. */
+export const kDepthIsTrue = `
+[[expect]]
+output    = "HitDepth"
+truth     = "hit_depth"
+tolerance = { relative = 1e-3 }
+where     = "answerable_hits"
+`;
+
 export const kPixelOfNaN = [20, 30];
 
 /**
@@ -199,7 +208,7 @@ export async function colorAt(page, pane, [left, top]) {
 /** Waits until `read()` gives what `fits`; the last value in the complaint. */
 export async function until(read, fits, what) {
   let value;
-  for (let i = 0; i < 200; ++i) {
+  for (let i = 0; i < 800; ++i) {
     value = await read();
     if (fits(value)) return value;
     await new Promise((done) => setTimeout(done, 25));
