@@ -218,6 +218,30 @@ OutputInfo buildOutput(const TableReader& table, std::string_view source)
     throw InputError(table.position(""), "\"output\" is missing in [expect]; \"finite\" alone does without");
 }
 
+void buildExcuse(const TableReader& table, const Case& testCase, Expectation& expectation)
+{
+    if (table.has("undecidable_above") && !table.has("undecidable")) {
+        throw InputError(table.position("undecidable_above"),
+                         "\"undecidable_above\" excuses nothing alone; \"undecidable\" is required beside it");
+    }
+    if (!table.has("undecidable")) return;
+    if (expectation.budget) {
+        throw InputError(table.position("undecidable"),
+                         "\"undecidable\" beside a budget is not allowed; the budget judges by shares");
+    }
+    if (std::holds_alternative<BoundSource>(expectation.source)) {
+        throw InputError(table.position("undecidable"),
+                         "\"undecidable\" beside finite and at_most is not allowed; these bounds hold for any answer");
+    }
+    if (testCase.projection.model == ProjectionModel::kOwn) {
+        throw InputError(table.position("undecidable"),
+                         "\"undecidable\" is measured on cpu32 and cpu64, which run no own tracer; it is allowed with "
+                         "the other models");
+    }
+    expectation.undecidable = table.number("undecidable");
+    expectation.undecidableAbove = table.number("undecidable_above");
+}
+
 Expectation buildExpectation(const Node& node, const ToleranceLookup& findTolerance, const Case& testCase)
 {
     const TableReader table(&node, "expect");
@@ -231,6 +255,7 @@ Expectation buildExpectation(const Node& node, const ToleranceLookup& findTolera
     if (table.has("where")) expectation.where = static_cast<Where>(table.choice("where"));
     expectation.backends = table.texts("backends");
     if (table.has("budget")) expectation.budget = buildBudget(table, source, expectation.output);
+    buildExcuse(table, testCase, expectation);
 
     if (const Node* tolerance = table.find("tolerance")) {
         const bool isPreset = tolerance->kind == NodeKind::kString;

@@ -147,6 +147,10 @@ struct Expectation {
     ExpectationSource source;
     Tolerance tolerance;
     std::optional<HitBudget> budget; // HitSuccess against the truth
+    // Share of the compared pixels that may be beyond the tolerance where an ulp of input becomes more than
+    // `undecidableAbove` ulps of the output (harness/run/conditioning.h).
+    std::optional<double> undecidable;
+    double undecidableAbove = kUndecidableAbove;
     Where where = Where::kTraced;
     std::vector<std::string> backends; // empty: all; else only these are held to it
     SourcePosition position;           // of the [[expect]] table

@@ -245,6 +245,17 @@ std::vector<KeySpec> expectKeys()
         Key("expect", "budget", kTable)
             .withoutIt("none")
             .says("HitSuccess against the truth, by shares; replaces a pixel by pixel comparison."),
+        Key("expect", "undecidable", kNumber)
+            .above(0)
+            .atMost(0.5)
+            .withoutIt("none")
+            .says(
+                "Share of the compared pixels that may be beyond the tolerance where the answer is undecidable: an ulp "
+                "of input becomes more than undecidable_above ulps of this output."),
+        Key("expect", "undecidable_above", kNumber)
+            .atLeast(16)
+            .byDefault("1024")
+            .says("Output ulps for an input ulp above which a pixel is undecidable; needs undecidable."),
         Key("expect", "where", kChoice)
             .oneOf({"traced", "all", "answerable", "answerable_hits", "hits"})
             .withoutIt("\"traced\"; finite: \"all\"")

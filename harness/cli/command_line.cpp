@@ -91,6 +91,8 @@ void addRun(CLI::App& app, CommandLine& line)
     addChoice<KeepPlanes>(verb, "--planes", run.planes,
                           {{"all", KeepPlanes::kAll}, {"failed", KeepPlanes::kFailed}, {"none", KeepPlanes::kNone}},
                           "Which cases' planes are kept as EXR");
+    verb.add_flag("--conditioning", run.conditioning,
+                  "Measure how many output ulp an input ulp becomes, per pixel (OUT/planes/CASE/conditioning.exr)");
     verb.add_option("-o,--output", run.output, "Folder for run.json and planes; default: out/last")
         ->type_name("DIR")
         ->take_last();
@@ -143,6 +145,10 @@ void addInspection(CLI::App& app, CommandLine& line)
         ->allow_extra_args(false);
     show.add_option("--debug-mode", line.show.debugMode, "With --image: this debug mode alone, in its display encoding")
         ->type_name("NAME");
+    show.add_flag("--conditioning", line.show.conditioning,
+                  "Measure how many output ulp an input ulp becomes, and which pixels are undecidable");
+    show.add_option("--pixel", line.show.pixel, "With --conditioning: of this pixel alone, from the top left corner")
+        ->type_name("X,Y");
     show.callback([&line] { line.verb = [&line] { return showCase(line.global, line.show); }; });
 
     CLI::App& trace = *app.add_subcommand("trace", "Show all that the ray of one pixel does");
@@ -157,6 +163,8 @@ void addInspection(CLI::App& app, CommandLine& line)
         ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     trace.add_flag("--json", line.trace.json, "As JSON");
+    trace.add_flag("--conditioning", line.trace.conditioning,
+                   "Measure how many output ulp an input ulp becomes, also where the image is large");
     trace.callback([&line] { line.verb = [&line] { return traceCase(line.global, line.trace); }; });
 
     CLI::App& diff = *app.add_subcommand("diff", "Compare two runs, or two EXR files of planes");

@@ -1,6 +1,7 @@
 #include "harness/cli/trace_text.h"
 
 #include "harness/inspect/names.h"
+#include "harness/inspect/pixel_conditioning.h"
 
 #include <fmt/format.h>
 
@@ -175,6 +176,23 @@ std::string formatComparison(const PixelTrace& trace)
                        distance.depth);
 }
 
+std::string formatConditioning(const PixelTrace& trace, const Style& style)
+{
+    if (!trace.conditioningNote.empty())
+        return fmt::format("\nConditioning: not measured: {}\n", trace.conditioningNote);
+    if (trace.conditioning.empty()) return {};
+    std::string text = fmt::format(
+        "\n  {}\n",
+        style.paint(Ink::kBold, fmt::format("{:<16} {:>8} {:>8} {:>8}", "ulp for an ulp", "cpu64", "cpu32", "apart")));
+    const std::vector<std::string> lines = describePixelConditioning(trace.conditioning);
+    for (size_t i = 0; i < lines.size(); ++i) {
+        const bool isUndecidable = trace.conditioning[i].condition > kUndecidableAbove;
+        text += fmt::format("{} {}\n", isUndecidable ? ">" : " ",
+                            isUndecidable ? style.paint(Ink::kYellow, lines[i]) : lines[i]);
+    }
+    return text;
+}
+
 } // namespace
 
 std::string formatTrace(const PixelTrace& trace, const Style& style)
@@ -185,7 +203,8 @@ std::string formatTrace(const PixelTrace& trace, const Style& style)
                                       [](const RecordOnBackend& record) { return record.record.isTraced; });
     if (!isTraced)
         return head + "This pixel traces no ray: what it shows is no mirror (reflection) and no glass (refraction).\n";
-    return head + formatHeader(trace, style) + formatSteps(trace, style) + formatComparison(trace);
+    return head + formatHeader(trace, style) + formatSteps(trace, style) + formatComparison(trace) +
+           formatConditioning(trace, style);
 }
 
 } // namespace crossray

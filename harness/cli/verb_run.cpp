@@ -1,3 +1,4 @@
+#include "harness/cli/conditioning_text.h"
 #include "harness/cli/verbs.h"
 #include "harness/inspect/worst_traces.h"
 #include "harness/report/report.h"
@@ -103,6 +104,7 @@ void printSummary(const RunResult& run, const RunOptions& options, const Style& 
     const RunCounts counts = countVerdicts(run);
     if (!options.quiet) {
         fmt::print(text, "\n");
+        if (options.conditioning) fmt::print(text, "{}\n", formatConditioning(run));
         for (const auto& [name, record] : run.backends) {
             const Fingerprint& print = record.fingerprint;
             fmt::print(text, "{:<12} {}\n", name,
@@ -211,6 +213,7 @@ int runCases(const GlobalOptions& global, const RunOptions& options)
         execution.keepGoing = options.keepGoing;
         execution.timeoutSeconds = options.timeoutSeconds;
         execution.keepPlanes = options.planes;
+        execution.conditioning = options.conditioning;
         execution.outputFolder = options.output;
         if (options.changed) execution.passedBefore = passedBefore;
         execution.today = formatToday();

@@ -1,4 +1,5 @@
 #include "harness/cli/show_color.h"
+#include "harness/cli/conditioning_text.h"
 #include "harness/cli/terminal_picture.h"
 #include "harness/cli/verbs.h"
 #include "harness/compile/source.h"
@@ -252,6 +253,29 @@ void printCase(const Case& testCase, const ShowOptions& options, const Style& st
     printBackends(testCase, options.backends);
 }
 
+void printConditioning(const Case& testCase, const Folders& folders, const std::string& pixelText)
+{
+    const Conditioning conditioning = measureConditioning(testCase, folders);
+    if (!conditioning.note.empty()) {
+        fmt::print("conditioning not measured: {}\n", conditioning.note);
+        return;
+    }
+    if (pixelText.empty()) {
+        const CaseData data(testCase);
+        fmt::print("{}", formatConditioning(summarize(conditioning, data.tracedPixels())));
+        return;
+    }
+    const glm::ivec2 pixel = parsePixel(pixelText);
+    const Camera& camera = testCase.camera;
+    checkPixel(camera, pixel);
+    const size_t index =
+        static_cast<size_t>(pixel.y) * static_cast<size_t>(camera.width) + static_cast<size_t>(pixel.x);
+    fmt::print("conditioning of pixel {},{}: ulp for an ulp on cpu64, on cpu32, and cpu32 against cpu64\n", pixel.x,
+               pixel.y);
+    for (const std::string& line : describePixelConditioning(listAt(conditioning, index)))
+        fmt::print("           {}\n", line);
+}
+
 } // namespace
 
 int showCase(const GlobalOptions& global, const ShowOptions& options)
@@ -263,11 +287,14 @@ int showCase(const GlobalOptions& global, const ShowOptions& options)
     if (options.image.empty() && !options.debugMode.empty()) {
         throw InputError("--debug-mode draws a picture: it needs --image FILE.png");
     }
+    if (!options.pixel.empty() && !options.conditioning)
+        throw InputError("--pixel says of a pixel how it is conditioned: it needs --conditioning");
     const Folders folders = findFolders(global.shaders, global.cases, global.cache);
     const SelectedCases selected = selectCases({{options.testCase}, {}, {}, {}, false}, folders.cases, {}, false);
     if (selected.exitCode) return static_cast<int>(*selected.exitCode);
-    if (!options.image.empty() && selected.cases.size() > 1) {
-        throw InputError(fmt::format("--image draws one case; \"{}\" means {}, the first of them \"{}\"",
+    if ((!options.image.empty() || options.conditioning) && selected.cases.size() > 1) {
+        throw InputError(fmt::format("{} one case; \"{}\" means {}, the first of them \"{}\"",
+                                     options.conditioning ? "--conditioning measures" : "--image draws",
                                      options.testCase, selected.cases.size(), selected.cases.front().name));
     }
     const Style style = Style::choose(global.color, STDOUT_FILENO);
@@ -282,6 +309,7 @@ int showCase(const GlobalOptions& global, const ShowOptions& options)
         isFirst = false;
         printCase(testCase, options, style);
     }
+    if (options.conditioning) printConditioning(selected.cases.front(), folders, options.pixel);
     if (options.image.empty()) return static_cast<int>(ExitCode::kAsExpected);
 
     const std::string backend = options.backends.empty() ? "lavapipe" : options.backends.front();

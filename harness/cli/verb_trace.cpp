@@ -1,5 +1,6 @@
 #include "harness/cli/trace_text.h"
 #include "harness/cli/verbs.h"
+#include "harness/inspect/pixel_conditioning.h"
 #include "harness/inspect/trace_json.h"
 
 #include <fmt/format.h>
@@ -28,6 +29,21 @@ const Case& chooseOne(const std::string& name, const std::vector<Case>& cases)
                                  cases.size() > kShownNames ? ", ..." : ""));
 }
 
+void addConditioning(const Case& testCase, const Folders& folders, bool isAskedFor, PixelTrace& trace)
+{
+    const Camera& camera = testCase.camera;
+    if (!isAskedFor && camera.width * camera.height > kMeasuredUnasked) {
+        trace.conditioningNote =
+            fmt::format("{} x {} pixels take their time; --conditioning measures them", camera.width, camera.height);
+        return;
+    }
+    const Conditioning conditioning = measureConditioning(testCase, folders);
+    trace.conditioningNote = conditioning.note;
+    const size_t pixel =
+        static_cast<size_t>(trace.pixel.y) * static_cast<size_t>(camera.width) + static_cast<size_t>(trace.pixel.x);
+    trace.conditioning = listAt(conditioning, pixel);
+}
+
 } // namespace
 
 int traceCase(const GlobalOptions& global, const TraceOptions& options)
@@ -44,7 +60,8 @@ int traceCase(const GlobalOptions& global, const TraceOptions& options)
     const SelectedCases selected = selectCases({{options.testCase}, {}, {}, {}, false}, folders.cases, {}, false);
     if (selected.exitCode) return static_cast<int>(*selected.exitCode);
     const Case& testCase = chooseOne(options.testCase, selected.cases);
-    const PixelTrace trace = tracePixel(testCase, pixel, backends.names, folders);
+    PixelTrace trace = tracePixel(testCase, pixel, backends.names, folders);
+    addConditioning(testCase, folders, options.conditioning, trace);
     if (options.json) {
         fmt::print("{}", formatTraceJson(trace));
     } else {

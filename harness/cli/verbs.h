@@ -41,6 +41,7 @@ struct RunOptions {
     std::optional<uint64_t> seed; // order of the cases
     bool validation = false;
     KeepPlanes planes = KeepPlanes::kFailed;
+    bool conditioning = false; // measured and written of every case
     std::string output = "out/last";
     std::string junit;
     bool json = false;
@@ -59,6 +60,8 @@ struct ShowOptions {
     std::string image;               // a PNG of what the first of the cases computes; empty: none
     std::vector<std::string> panels; // of that picture; empty: all
     std::string debugMode;           // what it shows in their place; empty: the panels
+    bool conditioning = false;       // measured, and told by output
+    std::string pixel;               // of which that is told alone, "X,Y"; empty: all
 };
 int showCase(const GlobalOptions& global, const ShowOptions& options);
 
@@ -73,6 +76,7 @@ struct TraceOptions {
     std::string pixel; // "X,Y"
     std::vector<std::string> backends;
     bool json = false;
+    bool conditioning = false; // measured whatever the size
 };
 int traceCase(const GlobalOptions& global, const TraceOptions& options);
 

@@ -113,7 +113,7 @@ PixelTrace tracePixel(const Case& testCase, glm::ivec2 pixel, std::span<const st
             throw InputError(fmt::format("{}: {} is not traced there: {}", backend, testCase.name, why));
     }
     const CaseData data(prepareForRecord(testCase));
-    PixelTrace trace{testCase.name, testCase.summary, pixel, {}, {}};
+    PixelTrace trace{testCase.name, testCase.summary, pixel, {}, {}, {}, {}};
     for (const std::string& backend : backends)
         trace.records.push_back({backend, recordOn(backend, data, pixel, workers)});
     if (trace.records.size() == 2) trace.parting = findParting(trace.records[0], trace.records[1]);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "harness/pass/pixel_record.h"
+#include "harness/run/conditioning.h"
 #include "harness/run/environment.h"
 
 #include <chrono>
@@ -27,8 +28,10 @@ struct Parting {
 struct PixelTrace {
     std::string caseName, summary;
     glm::ivec2 pixel{0};
-    std::vector<RecordOnBackend> records; // one or two
-    std::optional<Parting> parting;       // of two
+    std::vector<RecordOnBackend> records;        // one or two
+    std::optional<Parting> parting;              // of two
+    std::vector<PixelConditioning> conditioning; // of each output, where it was measured
+    std::string conditioningNote;                // why it was not
 };
 
 // "31,12". Throws InputError.

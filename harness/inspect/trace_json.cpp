@@ -103,9 +103,19 @@ Json traceJson(const PixelTrace& trace)
         backends.push_back(recordJson(record));
     Json parting;
     if (trace.parting) parting = {{"step", trace.parting->step}, {"sentence", trace.parting->sentence}};
+    Json conditioning = Json::array();
+    for (const PixelConditioning& output : trace.conditioning) {
+        conditioning.push_back({{"output", output.output},
+                                {"condition", number(output.condition)},
+                                {"cpu32", number(output.float32)},
+                                {"rounding", number(output.rounding)},
+                                {"cause", output.cause},
+                                {"undecidable", output.condition > kUndecidableAbove}});
+    }
     return {{"schema", "crossray-trace/1"}, {"case", trace.caseName},
             {"summary", trace.summary},     {"pixel", {trace.pixel.x, trace.pixel.y}},
-            {"backends", backends},         {"parting", parting}};
+            {"backends", backends},         {"parting", parting},
+            {"conditioning", conditioning}, {"conditioningNote", trace.conditioningNote}};
 }
 
 } // namespace
@@ -121,6 +131,7 @@ std::vector<std::string> listTraceJsonFields()
     trace.records.resize(2);
     trace.records[0].record.steps.resize(1);
     trace.parting = Parting{0, ""};
+    trace.conditioning.resize(1);
     std::set<std::string> fields;
     collectFields(traceJson(trace), "", fields);
     return {fields.begin(), fields.end()};

@@ -64,7 +64,7 @@ Comparison compareHitClasses(const Plane& expected, const Plane& actual, const M
         if (e == a && e != kNotAClass) {
             tally.pass(pixel, 0.0);
         } else {
-            tally.fail(pixel, classes ? 1.0 : kInfinity, a * 8 + e + 1);
+            tally.fail(pixel, classes ? 1.0 : kInfinity, a * 8 + e + 1, classes);
         }
     }
     Comparison comparison = tally.finish(tolerance, nameOfClassDifference);
@@ -94,7 +94,7 @@ Comparison compareCounts(const Plane& expected, const Plane& actual, const Mask&
         if (error == 0.0) {
             tally.pass(pixel, 0.0);
         } else {
-            tally.fail(pixel, error, kind);
+            tally.fail(pixel, error, kind, kind == kBeyondTolerance);
         }
     }
     return tally.finish(tolerance, nameOfCountDifference);

@@ -89,7 +89,8 @@ Comparison compareDirections(const Plane& expected, const Plane& actual, const M
         if (same) {
             tally.pass(pixel, 0.0);
         } else {
-            tally.fail(pixel, std::numeric_limits<double>::infinity(), differenceKind(expectedKind, actualKind));
+            tally.fail(pixel, std::numeric_limits<double>::infinity(), differenceKind(expectedKind, actualKind),
+                       actualKind == VectorKind::kDirection || actualKind == VectorKind::kZero);
         }
     }
     return tally.finish(tolerance, nameOfDifference);

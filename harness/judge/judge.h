@@ -29,7 +29,16 @@ struct Tolerance {
     // colours).
     double outlierShare = 0;
     std::optional<double> worst;
+
+    // Pixels beyond the bounds that are excused where the mask says that their answer cannot be decided, as a share of
+    // the compared ones. NaN, infinity and what is no class or no direction are never excused; more of them than that
+    // are failures, all of them.
+    double undecidableShare = 0;
 };
+
+// Output ulps for an input ulp above which a pixel is "undecidable here": 6e-5 to 1.2e-4 of the answer, which is where
+// the tolerances of single precision end.
+inline constexpr double kUndecidableAbove = 1024;
 
 // Budgets of a screen-space answer against the truth (domain yardstick). Unset bounds are not checked.
 struct HitBudget {
@@ -62,7 +71,9 @@ struct Comparison {
     std::string unit;
     uint64_t compared =
         0; // pixels under the mask; none at all is a failure: an expectation that cannot fail proves nothing
-    uint64_t failed = 0; // pixels beyond the tolerance (outliers included, also when they are accepted)
+    uint64_t failed = 0;      // pixels beyond the tolerance (outliers included, also when they are accepted)
+    uint64_t undecidable = 0; // compared pixels that the mask says are undecidable
+    uint64_t excused = 0;     // of them, those beyond the tolerance that are excused: neither failed nor in the census
     // The largest error among the failed pixels, or among all when none failed; the first in row order when several are
     // as bad.
     std::optional<PixelDifference> worst;
@@ -76,8 +87,9 @@ struct Comparison {
     std::string reason;                       // one line: why it failed, the worst first; empty when passed
 };
 
-// Pixels to compare; empty = all. One byte a pixel, 0 leaves it out.
+// Pixels to compare; empty = all. One byte a pixel, 0 leaves it out, kUndecidablePixel compares and may excuse.
 using Mask = std::vector<uint8_t>;
+inline constexpr uint8_t kUndecidablePixel = 2;
 
 // Throws InputError when the planes differ in shape, the tolerance sets no bound that its type knows, a bound is
 // negative or not a number, or outliers are accepted without `worst`: a broken case, not a failed one.

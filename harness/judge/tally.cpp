@@ -31,6 +31,10 @@ void checkTolerance(std::string_view what, const Tolerance& tolerance, KnownBoun
     if (!(tolerance.outlierShare >= 0.0 && tolerance.outlierShare <= 1.0)) {
         throw InputError(fmt::format("{}: outlier share is {}, allowed is 0 to 1", what, tolerance.outlierShare));
     }
+    if (!(tolerance.undecidableShare >= 0.0 && tolerance.undecidableShare <= 1.0)) {
+        throw InputError(
+            fmt::format("{}: undecidable share is {}, allowed is 0 to 1", what, tolerance.undecidableShare));
+    }
     if (tolerance.outlierShare > 0.0 && !tolerance.worst) {
         throw InputError(fmt::format("{}: an outlier share never stands alone, set \"worst\" as well", what));
     }
@@ -78,6 +82,14 @@ std::string formatReason(const Comparison& comparison)
     return text;
 }
 
+// Both shares: that which is off where nothing can be decided, and that which the case excuses.
+std::string formatUnexcused(const Comparison& comparison, uint64_t unexcused, const Tolerance& tolerance)
+{
+    const double share = 100.0 * static_cast<double>(unexcused) / static_cast<double>(comparison.compared);
+    return fmt::format("; {} of them ({:.2f} %) are undecidable, and the case excuses {:g} %", unexcused, share,
+                       100.0 * tolerance.undecidableShare);
+}
+
 } // namespace
 
 void checkComparison(std::string_view what, int channels, const Plane& expected, const Plane& actual, const Mask& mask,
@@ -112,12 +124,42 @@ Tally::Tally(const Plane& expected, const Plane& actual, const Mask& mask, std::
     errors_.reserve(expected.pixelCount());
 }
 
-Comparison Tally::finish(const Tolerance& tolerance, std::string (*nameOfKind)(int)) const
+bool Tally::isExcusable(size_t pixel) const
+{
+    if (mask_.empty() || mask_[pixel] != kUndecidablePixel) return false;
+    const auto channels = static_cast<size_t>(actual_.channels);
+    const auto first = actual_.values.begin() + static_cast<std::ptrdiff_t>(pixel * channels);
+    return std::all_of(first, first + actual_.channels, [](double value) { return std::isfinite(value); });
+}
+
+uint64_t Tally::countUnexcused(const Tolerance& tolerance)
+{
+    const auto excused = static_cast<double>(excusable_.size());
+    const auto compared = static_cast<double>(errors_.size() + excusable_.size());
+    if (excused <= tolerance.undecidableShare * compared) return 0;
+    for (const Failure& failure : excusable_) {
+        ++kinds_[static_cast<size_t>(failure.kind)];
+        add(failure.pixel, failure.error, true);
+    }
+    const uint64_t count = excusable_.size();
+    excusable_.clear();
+    return count;
+}
+
+Comparison Tally::finish(const Tolerance& tolerance, std::string (*nameOfKind)(int))
 {
     Comparison comparison;
+    const uint64_t unexcused = countUnexcused(tolerance);
     comparison.unit = unit_;
-    comparison.compared = errors_.size();
+    comparison.compared = errors_.size() + excusable_.size();
     comparison.failed = failed_;
+    comparison.excused = excusable_.size();
+    comparison.undecidable = static_cast<uint64_t>(std::count(mask_.begin(), mask_.end(), kUndecidablePixel));
+    if (errors_.empty() && !excusable_.empty()) {
+        comparison.reason =
+            fmt::format("all {} pixels to compare are beyond the tolerance and undecidable", excusable_.size());
+        return comparison;
+    }
     if (errors_.empty()) {
         comparison.reason = "no pixel to compare";
         return comparison;
@@ -133,11 +175,15 @@ Comparison Tally::finish(const Tolerance& tolerance, std::string (*nameOfKind)(i
         comparison.census[kind == kBeyondTolerance ? "beyond tolerance" : nameOfKind(kind)] += count;
     }
     // The worst failed pixel bounds all of them. An infinite bound accepts no infinite error.
+    // Undecidable pixels are no outliers: what is excused is another matter.
     const double allowed = tolerance.outlierShare * static_cast<double>(comparison.compared);
     const bool outliersAccepted = tolerance.worst && static_cast<double>(failed_) <= allowed &&
                                   std::isfinite(worstError_) && worstError_ <= *tolerance.worst;
     comparison.passed = failed_ == 0 || outliersAccepted;
-    if (!comparison.passed) comparison.reason = formatReason(comparison);
+    if (!comparison.passed) {
+        comparison.reason = formatReason(comparison);
+        if (unexcused > 0) comparison.reason += formatUnexcused(comparison, unexcused, tolerance);
+    }
     return comparison;
 }
 

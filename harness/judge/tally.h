@@ -31,16 +31,30 @@ class Tally {
 
     bool isCompared(size_t pixel) const { return mask_.empty() || mask_[pixel] != 0; }
     void pass(size_t pixel, double error) { add(pixel, error, false); }
-    void fail(size_t pixel, double error, int kind)
+    void fail(size_t pixel, double error, int kind, bool isWellFormed = true)
     {
+        if (isWellFormed && isExcusable(pixel)) {
+            excusable_.push_back({pixel, error, kind});
+            return;
+        }
         ++kinds_[static_cast<size_t>(kind)];
         add(pixel, error, true);
     }
 
     // `nameOfKind` names each kind beyond kBeyondTolerance that occurred.
-    Comparison finish(const Tolerance& tolerance, std::string (*nameOfKind)(int)) const;
+    Comparison finish(const Tolerance& tolerance, std::string (*nameOfKind)(int));
 
   private:
+    struct Failure {
+        size_t pixel = 0;
+        double error = 0;
+        int kind = kBeyondTolerance;
+    };
+
+    // Undecidable, and an answer all the same.
+    bool isExcusable(size_t pixel) const;
+    // Those beyond the share fail, all of them. Returns how many that are.
+    uint64_t countUnexcused(const Tolerance& tolerance);
     void add(size_t pixel, double error, bool failed)
     {
         errors_.push_back(error);
@@ -58,6 +72,7 @@ class Tally {
     const Mask& mask_;
     std::string unit_;
     std::vector<double> errors_;
+    std::vector<Failure> excusable_;
     std::array<uint64_t, kDifferenceKinds> kinds_{};
     uint64_t failed_ = 0;
     size_t worstPixel_ = 0;

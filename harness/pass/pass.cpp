@@ -260,12 +260,16 @@ Job buildJob(const CaseData& data, ShaderCompiler& compiler, const std::filesyst
 Job buildRecordJob(const CaseData& data, ShaderCompiler& compiler, const std::filesystem::path& shaderRoot,
                    Precision precision, glm::ivec2 pixel, int stepCapacity)
 {
-    const Camera& camera = data.testCase().camera;
+    checkPixel(data.testCase().camera, pixel);
+    return buildTraceJob(data, compiler, shaderRoot, precision, PixelQuery{pixel.x, pixel.y, stepCapacity});
+}
+
+void checkPixel(const Camera& camera, glm::ivec2 pixel)
+{
     if (pixel.x < 0 || pixel.y < 0 || pixel.x >= camera.width || pixel.y >= camera.height) {
         throw InputError(fmt::format("pixel {},{} is outside the image of {} x {}; allowed are 0,0 to {},{}", pixel.x,
                                      pixel.y, camera.width, camera.height, camera.width - 1, camera.height - 1));
     }
-    return buildTraceJob(data, compiler, shaderRoot, precision, PixelQuery{pixel.x, pixel.y, stepCapacity});
 }
 
 namespace {

@@ -65,6 +65,9 @@ struct PixelRecord {
 // The case with the outputs that a record shows, whatever it expects itself.
 Case prepareForRecord(const Case& testCase);
 
+// Throws InputError where the pixel is outside the image.
+void checkPixel(const Camera& camera, glm::ivec2 pixel);
+
 // The job that records the pixel; `data` is of a case from prepareForRecord. Throws ShaderError, and InputError for a
 // pixel outside the image.
 constexpr int kMostRecordedSteps = 4096;

@@ -45,7 +45,11 @@ bool runsOn(const Case& testCase, const std::string& backend)
 }
 
 CaseFlight::CaseFlight(const Case& testCase, PreparedCase prepared, const ExecuteOptions& options)
-    : testCase_(testCase), prepared_(std::move(prepared)), options_(options), judge_(prepared_.data)
+    : testCase_(testCase), prepared_(std::move(prepared)), options_(options),
+      conditioning_(std::make_shared<LazyConditioning>([this] {
+          return measureConditioning(testCase_, *prepared_.floatJob, *prepared_.doubleJob, prepared_.askCpu);
+      })),
+      judge_(prepared_.data, conditioning_)
 {
 }
 
@@ -134,11 +138,19 @@ void CaseFlight::dropPlanes(const BackendResult& result)
 
 void CaseFlight::writePlanes(CaseResult& result) const
 {
+    const Conditioning* conditioning = conditioning_->known();
+    if (conditioning) result.conditioning = summarize(*conditioning, prepared_.data->tracedPixels());
     if (options_.keepPlanes == KeepPlanes::kNone || options_.outputFolder.empty()) return;
+    const PlaneFiles files(options_.outputFolder);
+    const auto writeConditioning = [&] {
+        if (!conditioning || conditioning->outputs.empty()) return;
+        result.conditioning->file = files.write(result.name, "conditioning", listConditioningPlanes(*conditioning));
+    };
+    if (options_.conditioning) writeConditioning();
     const bool isWanted = std::any_of(result.backends.begin(), result.backends.end(),
                                       [&](const auto& backend) { return wantsPlanes(options_.keepPlanes, backend); });
     if (!isWanted) return;
-    const PlaneFiles files(options_.outputFolder);
+    if (!options_.conditioning) writeConditioning();
     bool keptAny = false;
     for (BackendResult& backend : result.backends) {
         const auto planes = planes_.find(backend.backend);

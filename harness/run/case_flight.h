@@ -24,6 +24,9 @@ class CaseFlight {
     const PreparedCase& prepared() const { return prepared_; }
     CaseJudge& judge() { return judge_; }
 
+    // Of every pixel, now; else it is measured where a verdict needs it.
+    void measure() { conditioning_->get(); }
+
     struct Settled {
         std::vector<BackendResult> results;   // with their final verdicts
         std::vector<std::string> brokenInput; // what proved the case broken, one line each
@@ -33,7 +36,7 @@ class CaseFlight {
     // Nothing is to come any more: what still waits for another backend is judged by what there is.
     Settled finish();
     // Writes the planes that the options ask for and notes their files in the results: where one backend failed, those
-    // of the others as well, so that the two can be compared.
+    // of the others as well, so that the two can be compared. What is known of the case's conditioning is noted, too.
     void writePlanes(CaseResult& result) const;
 
   private:
@@ -49,6 +52,7 @@ class CaseFlight {
     const Case& testCase_;
     PreparedCase prepared_;
     const ExecuteOptions& options_;
+    std::shared_ptr<LazyConditioning> conditioning_;
     CaseJudge judge_;
     std::mutex mutex_;
     std::set<std::string> answered_;

@@ -94,6 +94,10 @@ std::string describeTolerance(const Expectation& expectation)
     if (tolerance.outlierShare > 0 && tolerance.worst) {
         text += fmt::format("; {:g} % may be off by up to {:g}", tolerance.outlierShare * 100, *tolerance.worst);
     }
+    if (expectation.undecidable) {
+        text += fmt::format("; {:g} % are excused where an ulp of input becomes more than {:g}",
+                            *expectation.undecidable * 100, expectation.undecidableAbove);
+    }
     return text;
 }
 
@@ -106,6 +110,8 @@ ExpectationResult CaseJudge::startResult(size_t index) const
     result.source = describeSource(expectation.source);
     result.position = expectation.position;
     result.tolerance = describeTolerance(expectation);
+    result.undecidable = expectation.undecidable;
+    if (expectation.undecidable) result.undecidableAbove = expectation.undecidableAbove;
     return result;
 }
 
@@ -142,17 +148,37 @@ Comparison compareAt(const SourcePosition& position, const Compare& comparePlane
     }
 }
 
+void markUndecidable(const Mask& undecidable, Mask& mask)
+{
+    for (size_t pixel = 0; pixel < undecidable.size(); ++pixel) {
+        if (mask[pixel] != 0 && undecidable[pixel] != 0) mask[pixel] = kUndecidablePixel;
+    }
+}
+
 } // namespace
 
 Comparison CaseJudge::compareWith(const Expectation& expectation, const Plane& expected, std::span<const Plane> planes)
 {
     const Plane& actual = requirePlane(planes, expectation);
-    const Mask mask = maskFor(expectation, planes);
+    Mask mask = maskFor(expectation, planes);
     if (const auto* bound = std::get_if<BoundSource>(&expectation.source))
         return compareAt(expectation.position,
                          [&] { return compareWithBound(expected, actual, mask, !bound->atMost.has_value()); });
-    return compareAt(expectation.position,
-                     [&] { return compare(expectation.output.type, expected, actual, mask, expectation.tolerance); });
+    Tolerance tolerance = expectation.tolerance;
+    const auto judge = [&] {
+        return compareAt(expectation.position,
+                         [&] { return compare(expectation.output.type, expected, actual, mask, tolerance); });
+    };
+    Comparison strict = judge();
+    if (!expectation.undecidable || !conditioning_ || (strict.passed && !conditioning_->known())) return strict;
+    const Conditioning& conditioning = conditioning_->get();
+    if (!conditioning.note.empty()) {
+        if (!strict.passed) strict.reason += fmt::format("; nothing is excused: {}", conditioning.note);
+        return strict;
+    }
+    markUndecidable(findUndecidable(conditioning, expectation.output.name, expectation.undecidableAbove), mask);
+    tolerance.undecidableShare = *expectation.undecidable;
+    return judge();
 }
 
 Comparison CaseJudge::compareWithTruth(const Expectation& expectation, std::span<const Plane> planes)

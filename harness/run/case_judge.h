@@ -2,6 +2,7 @@
 #pragma once
 
 #include "harness/expect/expect.h"
+#include "harness/run/conditioning.h"
 #include "harness/run/results.h"
 
 #include <map>
@@ -24,7 +25,12 @@ const std::string& referenceOf(const AgreeSource& source);
 // Thread-safe: several backends of a case may be judged at once.
 class CaseJudge {
   public:
-    explicit CaseJudge(std::shared_ptr<const CaseData> data) : data_(std::move(data)) {}
+    // `conditioning` says which pixels an expectation may excuse; without it none is. It is asked where a pixel is
+    // beyond its tolerance, and at no other time.
+    explicit CaseJudge(std::shared_ptr<const CaseData> data, std::shared_ptr<LazyConditioning> conditioning = {})
+        : data_(std::move(data)), conditioning_(std::move(conditioning))
+    {
+    }
 
     // The expectations that have a plane of their own and speak of this backend. Throws InputError for a broken case.
     std::vector<ExpectationResult> judgeAlone(const std::string& backend, std::span<const Plane> planes);
@@ -57,7 +63,8 @@ class CaseJudge {
     Mask maskFor(const Expectation& expectation, std::span<const Plane> planes);
 
     std::shared_ptr<const CaseData> data_; // shared with the preparation's cache of the same case
-    mutable std::mutex mutex_;             // the truth is made on first use, inside CaseData
+    std::shared_ptr<LazyConditioning> conditioning_;
+    mutable std::mutex mutex_; // the truth is made on first use, inside CaseData
     std::map<size_t, Made> expected_;
     std::shared_ptr<const std::vector<HitTruth>> hitTruth_; // shared like the planes
 };

@@ -134,7 +134,7 @@ class Execution {
                 if (task.kind == Task::Kind::kWait) {
                     changed_.wait(lock);
                 } else if (task.kind == Task::Kind::kPrepare) {
-                    prepare(lock, task.caseIndex);
+                    prepare(lock, core, task.caseIndex);
                 } else {
                     runTask(lock, core, task);
                 }
@@ -149,13 +149,14 @@ class Execution {
         changed_.notify_all();
     }
 
-    void prepare(std::unique_lock<std::mutex>& lock, size_t caseIndex)
+    void prepare(std::unique_lock<std::mutex>& lock, size_t core, size_t caseIndex)
     {
         const Case& testCase = cases_[caseIndex];
         bool needsFloat = false, needsDouble = false;
         for (const std::string& backend : options_.backends) {
             if (runsOn(testCase, backend)) (usesDoubles(backend) ? needsDouble : needsFloat) = true;
         }
+        const bool mayMeasure = options_.conditioning || excusesPixels(testCase);
         if (!needsFloat && !needsDouble) {
             skipForeignBackends(caseIndex);
             schedule_.finishPrepare(caseIndex, false);
@@ -167,7 +168,7 @@ class Execution {
         std::string error;
         bool isBrokenInput = false;
         try {
-            prepared = steps_.prepare(testCase, needsFloat, needsDouble);
+            prepared = steps_.prepare(testCase, needsFloat || mayMeasure, needsDouble || mayMeasure);
         } catch (const InputError& failure) {
             error = failure.what();
             isBrokenInput = true;
@@ -186,7 +187,13 @@ class Execution {
         run_.cases[caseIndex].prepareMs = prepared.prepareMs;
         run_.cases[caseIndex].compileMs = prepared.compileMs;
         if (error.empty()) {
+            prepared.askCpu = makeAskCpu(core, testCase);
             flights_[caseIndex] = std::make_unique<CaseFlight>(testCase, std::move(prepared), options_);
+            if (options_.conditioning) {
+                lock.unlock();
+                flights_[caseIndex]->measure();
+                lock.lock();
+            }
         } else {
             if (isBrokenInput) recordBrokenInput(error);
             for (const std::string& backend : options_.backends) {
@@ -196,6 +203,18 @@ class Execution {
         schedule_.finishPrepare(caseIndex, error.empty());
         if (!error.empty()) finishCase(caseIndex);
         changed_.notify_all();
+    }
+
+    // A job beside the case's own, on a worker of this core.
+    AskCpu makeAskCpu(size_t core, const Case& testCase) const
+    {
+        return [this, core, &testCase](const std::string& backend, const Job& job) {
+            const std::chrono::duration<double> timeout(options_.timeoutSeconds.value_or(testCase.timeoutSeconds));
+            const JobReport report = steps_.run(backend, static_cast<int>(core), job, timeout);
+            if (report.outcome != JobOutcome::kDone)
+                throw EnvironmentError(fmt::format("{} gave no answer: {}", backend, report.text));
+            return steps_.readPlanes(testCase, report.result);
+        };
     }
 
     bool isUnchanged(const Case& testCase, const std::string& inputKey) const

@@ -28,6 +28,7 @@ struct ExecuteOptions {
     bool keepGoing = false;               // a broken case does not stop the others
     std::optional<double> timeoutSeconds; // instead of the cases' own
     KeepPlanes keepPlanes = KeepPlanes::kFailed;
+    bool conditioning = false;               // of every case, not only of those that excuse pixels by it
     std::filesystem::path outputFolder;      // planes go below it; empty: nowhere
     std::optional<PassedCases> passedBefore; // leave out what has passed with the same inputs
     std::string today;                       // for known failures
@@ -40,6 +41,7 @@ struct PreparedCase {
     std::optional<Job> floatJob, doubleJob; // only the precisions that some backend asks for
     std::string inputKey;
     double prepareMs = 0, compileMs = 0;
+    AskCpu askCpu; // for the conditioning
 };
 
 // The steps that touch the world, so that the order of things can be tested without devices. All are called from

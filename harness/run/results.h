@@ -36,11 +36,13 @@ enum class Tally { kPassed, kFailed, kSkipped };
 Tally tallyOf(Verdict verdict);
 
 struct ExpectationResult {
-    size_t index = 0;        // place among the case's expectations
-    std::string output;      // "HitDepth"
-    std::string source;      // "analytic mirror_direction", "agree with cpu64", ...
-    SourcePosition position; // of the [[expect]] table
-    std::string tolerance;   // in words: "0.0001 relative or 4 ulp"
+    size_t index = 0;                       // place among the case's expectations
+    std::string output;                     // "HitDepth"
+    std::string source;                     // "analytic mirror_direction", "agree with cpu64", ...
+    SourcePosition position;                // of the [[expect]] table
+    std::string tolerance;                  // in words: "0.0001 relative or 4 ulp"
+    std::optional<double> undecidable;      // share that it excuses; none: nothing
+    std::optional<double> undecidableAbove; // output ulps for an input ulp from which on it may
     bool judged = false;
     std::string note; // why it was not judged
     bool missingGolden = false;
@@ -69,6 +71,27 @@ struct BackendResult {
     std::string traceNote;             // why a failure has no trace; empty otherwise
 };
 
+// How well the questions of a case's pixels are posed (harness/run/conditioning.h).
+struct ConditioningResult {
+    struct Worst {
+        int x = 0, y = 0;
+        double condition = 0; // may be infinite
+        int cause = 0;        // an InputGroup
+    };
+    struct Output {
+        std::string output;
+        uint64_t pixels = 0;                 // that trace a ray
+        uint64_t undecidable = 0;            // of them, above the bound
+        uint64_t fragile = 0;                // decidable, and yet lost by float arithmetic: never excused
+        double median = 0, p95 = 0, max = 0; // of the finite conditions
+        std::optional<Worst> worst;
+    };
+    double bound = 0;
+    std::string file; // relative to the run's folder; empty when not kept
+    std::string note; // why it was not measured; empty otherwise
+    std::vector<Output> outputs;
+};
+
 struct CaseResult {
     std::string name;
     std::string summary;
@@ -76,11 +99,12 @@ struct CaseResult {
     SourcePosition position;
     int width = 0, height = 0;
     bool mustFail = false;
-    double prepareMs = 0;                // scene, G-buffer
-    double compileMs = 0;                // shaders and the job, of both precisions
-    std::string inputKey;                // of all that the verdicts depend on; empty when it could not be prepared
-    std::string expectedFile;            // expected planes, relative to the run's folder; empty when not kept
-    std::vector<BackendResult> backends; // in the run's order; those that were not reached are absent
+    double prepareMs = 0;     // scene, G-buffer
+    double compileMs = 0;     // shaders and the job, of both precisions
+    std::string inputKey;     // of all that the verdicts depend on; empty when it could not be prepared
+    std::string expectedFile; // expected planes, relative to the run's folder; empty when not kept
+    std::optional<ConditioningResult> conditioning; // where it was measured
+    std::vector<BackendResult> backends;            // in the run's order; those that were not reached are absent
 };
 
 struct BackendRecord {

@@ -66,6 +66,8 @@ Json comparisonToJson(const Comparison& comparison)
               {"unit", comparison.unit},
               {"compared", comparison.compared},
               {"failed", comparison.failed},
+              {"undecidable", comparison.undecidable},
+              {"excused", comparison.excused},
               {"median", numberToJson(comparison.median)},
               {"p95", numberToJson(comparison.p95)},
               {"p99", numberToJson(comparison.p99)},
@@ -96,6 +98,8 @@ Comparison comparisonFromJson(const Json& json)
     comparison.unit = json.at("unit").get<std::string>();
     comparison.compared = json.at("compared").get<uint64_t>();
     comparison.failed = json.at("failed").get<uint64_t>();
+    comparison.undecidable = json.value("undecidable", uint64_t{0}); // younger than the schema
+    comparison.excused = json.value("excused", uint64_t{0});
     comparison.median = numberFromJson(json.at("median"));
     comparison.p95 = numberFromJson(json.at("p95"));
     comparison.p99 = numberFromJson(json.at("p99"));
@@ -121,12 +125,30 @@ Comparison comparisonFromJson(const Json& json)
     return comparison;
 }
 
+Json optionalToJson(const std::optional<double>& value)
+{
+    return value ? Json(*value) : Json(nullptr);
+}
+
+std::optional<double> optionalFromJson(const Json& json, const char* key)
+{
+    const auto found = json.find(key);
+    if (found == json.end() || found->is_null()) return std::nullopt;
+    return found->get<double>();
+}
+
 Json expectationToJson(const ExpectationResult& expectation)
 {
-    Json json{{"index", expectation.index},         {"output", expectation.output},
-              {"source", expectation.source},       {"position", positionToJson(expectation.position)},
-              {"tolerance", expectation.tolerance}, {"judged", expectation.judged},
-              {"note", expectation.note},           {"missingGolden", expectation.missingGolden}};
+    Json json{{"index", expectation.index},
+              {"output", expectation.output},
+              {"source", expectation.source},
+              {"position", positionToJson(expectation.position)},
+              {"tolerance", expectation.tolerance},
+              {"judged", expectation.judged},
+              {"note", expectation.note},
+              {"missingGolden", expectation.missingGolden},
+              {"undecidable", optionalToJson(expectation.undecidable)},
+              {"undecidableAbove", optionalToJson(expectation.undecidableAbove)}};
     if (expectation.judged) json["comparison"] = comparisonToJson(expectation.comparison);
     return json;
 }
@@ -142,6 +164,8 @@ ExpectationResult expectationFromJson(const Json& json)
     expectation.judged = json.at("judged").get<bool>();
     expectation.note = json.at("note").get<std::string>();
     expectation.missingGolden = json.at("missingGolden").get<bool>();
+    expectation.undecidable = optionalFromJson(json, "undecidable"); // younger than the schema
+    expectation.undecidableAbove = optionalFromJson(json, "undecidableAbove");
     if (expectation.judged) expectation.comparison = comparisonFromJson(json.at("comparison"));
     return expectation;
 }
@@ -210,6 +234,50 @@ BackendResult backendResultFromJson(const Json& json)
     return result;
 }
 
+Json conditioningToJson(const ConditioningResult& conditioning)
+{
+    Json outputs = Json::array();
+    for (const ConditioningResult::Output& output : conditioning.outputs) {
+        Json json{{"output", output.output},   {"pixels", output.pixels}, {"undecidable", output.undecidable},
+                  {"fragile", output.fragile}, {"median", output.median}, {"p95", output.p95},
+                  {"max", output.max}};
+        if (output.worst) {
+            json["worst"] = {{"x", output.worst->x},
+                             {"y", output.worst->y},
+                             {"condition", numberToJson(output.worst->condition)},
+                             {"cause", output.worst->cause}};
+        }
+        outputs.push_back(std::move(json));
+    }
+    return {{"file", conditioning.file},
+            {"bound", conditioning.bound},
+            {"note", conditioning.note},
+            {"outputs", std::move(outputs)}};
+}
+
+ConditioningResult conditioningFromJson(const Json& json)
+{
+    ConditioningResult conditioning;
+    conditioning.file = json.at("file").get<std::string>();
+    conditioning.bound = json.at("bound").get<double>();
+    conditioning.note = json.at("note").get<std::string>();
+    for (const Json& entry : json.at("outputs")) {
+        ConditioningResult::Output& output = conditioning.outputs.emplace_back();
+        output.output = entry.at("output").get<std::string>();
+        output.pixels = entry.at("pixels").get<uint64_t>();
+        output.undecidable = entry.at("undecidable").get<uint64_t>();
+        output.fragile = entry.at("fragile").get<uint64_t>();
+        output.median = entry.at("median").get<double>();
+        output.p95 = entry.at("p95").get<double>();
+        output.max = entry.at("max").get<double>();
+        if (!entry.contains("worst")) continue;
+        const Json& worst = entry.at("worst");
+        output.worst = {worst.at("x").get<int>(), worst.at("y").get<int>(), numberFromJson(worst.at("condition")),
+                        worst.at("cause").get<int>()};
+    }
+    return conditioning;
+}
+
 Json caseToJson(const CaseResult& testCase)
 {
     Json json{
@@ -218,6 +286,7 @@ Json caseToJson(const CaseResult& testCase)
         {"width", testCase.width},       {"height", testCase.height},
         {"mustFail", testCase.mustFail}, {"times", {{"prepare", testCase.prepareMs}, {"compile", testCase.compileMs}}},
         {"inputs", testCase.inputKey},   {"expected", testCase.expectedFile}};
+    if (testCase.conditioning) json["conditioning"] = conditioningToJson(*testCase.conditioning);
     Json backends = Json::array();
     for (const BackendResult& result : testCase.backends)
         backends.push_back(backendResultToJson(result));
@@ -239,6 +308,7 @@ CaseResult caseFromJson(const Json& json)
     testCase.compileMs = json.at("times").at("compile").get<double>();
     testCase.inputKey = json.at("inputs").get<std::string>();
     testCase.expectedFile = json.at("expected").get<std::string>();
+    if (json.contains("conditioning")) testCase.conditioning = conditioningFromJson(json.at("conditioning"));
     for (const Json& result : json.at("backends"))
         testCase.backends.push_back(backendResultFromJson(result));
     return testCase;
@@ -414,6 +484,7 @@ std::vector<std::string> listRunJsonFields()
     run.backends["lavapipe"];
     run.compilers["glslang"];
     CaseResult& testCase = run.cases.emplace_back();
+    testCase.conditioning.emplace().outputs.emplace_back().worst.emplace();
     BackendResult& result = testCase.backends.emplace_back();
     ExpectationResult& expectation = result.expectations.emplace_back();
     expectation.judged = true;

@@ -15,7 +15,7 @@
 namespace crossray {
 
 inline constexpr int kMaxExrSide = 16384;           // pixels
-inline constexpr int kMaxExrChannels = 64;          // of all parts together
+inline constexpr int kMaxExrChannels = 128;         // of all parts together
 inline constexpr long long kMaxExrValues = 1 << 28; // pixels times channels, of all parts together
 
 // Writes beside the target and renames, so that a file is whole or absent. Values are rounded to float. The attributes
