@@ -318,3 +318,19 @@ TEST_F(BadInput, aKnownFailureHasIssueDateAndReason)
                                "must_fail = true\nscene = {}")),
               "a.toml:10:1: a known failure of a must_fail case is not allowed; one of them is");
 }
+
+TEST_F(BadInput, whatMayBeExcusedIsBounded)
+{
+    const std::string weight = "output = \"HitWeight\"\nconstant = 1\ntolerance = { absolute = 0.1 }\n";
+    EXPECT_EQ(refusal(expecting(weight + "undecidable = 0\n")),
+              "a.toml:9:15: \"undecidable\" is 0; above 0, at most 0.5 is allowed");
+    EXPECT_EQ(refusal(expecting(weight + "undecidable = 0.6\n")),
+              "a.toml:9:15: \"undecidable\" is 0.6; above 0, at most 0.5 is allowed");
+    EXPECT_EQ(refusal(expecting(weight + "undecidable_above = 64\n")),
+              "a.toml:9:21: \"undecidable_above\" excuses nothing alone; \"undecidable\" is required beside it");
+    EXPECT_EQ(refusal(expecting(weight + "undecidable = 0.1\nundecidable_above = 1\n")),
+              "a.toml:10:21: \"undecidable_above\" is 1; at least 16 is allowed");
+    EXPECT_EQ(
+        refusal(expecting("output = \"HitSuccess\"\ntruth = \"hit\"\nbudget = { recall = 0.5 }\nundecidable = 0.1\n")),
+        "a.toml:9:15: \"undecidable\" beside a budget is not allowed; the budget judges by shares");
+}
