@@ -1,6 +1,7 @@
 #include "harness/bench/bench_case.h"
 
 #include "harness/bench/family.h"
+#include "harness/bench/jitter.h"
 #include "harness/bench/tracer_yardstick.h"
 #include "harness/compile/spirv_module.h"
 #include "harness/pass/pass.h"
@@ -277,7 +278,27 @@ struct Measuring {
     const CaseData& data;
     const BenchFamily* family; // null: the effect's own
     const void* prepared;      // by the family
+    const JitterViews* jitter; // null: nothing to move
 };
+
+// Of one method, all directions together. It runs on the device as it does where it is timed, and is not timed here.
+double measureFlips(const Measuring& with, const BenchMethod& method, const Answers& still)
+{
+    const JitterViews& views = *with.jitter;
+    const Camera& camera = with.testCase.camera;
+    const ClassImage before = classesOf(still.plane("HitSuccess"), still.scale, camera.width, camera.height);
+    FlipCount count;
+    for (size_t i = 0; i < views.cameras.size(); ++i) {
+        Case moved = with.testCase;
+        moved.camera = views.cameras[i];
+        Runner runner = makeRunner(moved, method, with.compiler, with.folders, with.precision, false);
+        runOnce(runner, with.options.backend, with.pool, with.compiler, with.folders);
+        const Answers answers{readPlanes(runner.testCase, runner.last), runner.scale};
+        countFlips(views.before, views.after[i], before,
+                   classesOf(answers.plane("HitSuccess"), runner.scale, camera.width, camera.height), count);
+    }
+    return count.share();
+}
 
 // Fills errors and counters of a method that was timed. Projections run once more, with their counters.
 void judgeMethod(const Measuring& with, const BenchMethod& method, const Runner& timed, BenchPoint& point)
@@ -295,6 +316,7 @@ void judgeMethod(const Measuring& with, const BenchMethod& method, const Runner&
     if (judgesHits) {
         judgeReflections(truth, answers, point);
         countCost(truth, answers, point);
+        if (with.jitter != nullptr) point.errors["Flips"] = measureFlips(with, method, answers);
     }
     if (with.family != nullptr) {
         with.family->judge({with.data, timed.testCase, answers.planes, timed.job, method, with.prepared}, point);
@@ -358,7 +380,13 @@ BenchScene benchCase(const Case& testCase, const BenchOptions& options, WorkerPo
     std::shared_ptr<const void> prepared;
     if (family != nullptr && family->prepare != nullptr) prepared = family->prepare(data);
     if (isReflection && family == nullptr) fillScene(makeYardstickScene(data), scene);
-    const Measuring measuring{testCase, options, pool, compiler, folders, precision, data, family, prepared.get()};
+    std::optional<JitterViews> jitter;
+    if (isReflection && family == nullptr && !testCase.recorded && !testCase.history) {
+        jitter = makeJitterViews(testCase, truth);
+        scene.trueFlips = jitter->truth.share();
+    }
+    const Measuring measuring{testCase,  options, pool,   compiler,       folders,
+                              precision, data,    family, prepared.get(), jitter ? &*jitter : nullptr};
     for (size_t i = 0; i < methods.size(); ++i) {
         const Runner& runner = runners[i + 1];
         BenchPoint point{methods[i].name, methods[i].kind, {}, {}, summarize(runner.milliseconds, scene.baselineMs)};

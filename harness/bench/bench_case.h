@@ -9,6 +9,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -37,8 +38,10 @@ struct BenchPoint {
     std::string method, kind;
     // By name, all so that less is better. Reflections: Wrong (missed or wrong answerable rays and claimed unanswerable
     // ones, of all rays), Missed (of the answerable), False (of the unanswerable), HitDepth (mean relative error over
-    // the answerable, 1 where there is no answer), HitPositionSS (median of the right hits, pixels). Refractions:
-    // RayDirWS (mean, degrees), RayOriginWS and PathLength (mean, metres). Those of the other families: family.h.
+    // the answerable, 1 where there is no answer), HitPositionSS (median of the right hits, pixels), Flips (of the
+    // rays, those whose class changes where the camera moves by a hundredth of a pixel, the mean of 16 directions; of
+    // analytic scenes without a previous frame). Refractions: RayDirWS (mean, degrees), RayOriginWS and PathLength
+    // (mean, metres). Those of the other families: family.h.
     std::map<std::string, double> errors;
     // Fetches and FetchesOf32 (of the depth buffer, its pyramid or a pixel's surface, a pixel of the full image, and
     // the mean over 32 neighbouring rays of the largest), Iterations and IterationsOf32, counted by the shader; of
@@ -56,8 +59,9 @@ struct BenchScene {
     double parameter = 0; // what the cases of one family differ in: of "glossy" the roughness
     int width = 0, height = 0;
     double rays = 0;
-    double unknowable = 0;  // share of the rays whose end no screen shows
-    double oracleWrong = 0; // share that even the best reader of the depth buffer answers wrongly
+    double unknowable = 0;             // share of the rays whose end no screen shows
+    double oracleWrong = 0;            // share that even the best reader of the depth buffer answers wrongly
+    std::optional<double> trueFlips{}; // Flips of the truth itself
     double baselineMs = 0;
     std::vector<BenchPoint> points;
     std::string needs, budget; // the case's own claim; empty: none

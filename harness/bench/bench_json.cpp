@@ -55,6 +55,7 @@ std::string formatBenchJson(const BenchResult& result)
                           {"rays", scene.rays},
                           {"unknowable", scene.unknowable},
                           {"oracleWrong", scene.oracleWrong},
+                          {"trueFlips", scene.trueFlips ? Json(*scene.trueFlips) : Json(nullptr)},
                           {"baselineMilliseconds", scene.baselineMs},
                           {"methods", points}});
     }

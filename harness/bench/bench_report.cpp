@@ -17,7 +17,7 @@ namespace {
 // Errors in the order in which a table shows them.
 const std::vector<std::string>& errorNames(const std::string& effect)
 {
-    static const std::vector<std::string> reflection{"Wrong", "Missed", "False", "HitDepth", "HitPositionSS"};
+    static const std::vector<std::string> reflection{"Wrong", "Missed", "False", "HitDepth", "HitPositionSS", "Flips"};
     static const std::vector<std::string> refraction{"RayDirWS", "RayOriginWS", "PathLength"};
     if (const BenchFamily* family = findBenchFamily(effect)) return family->errors;
     return effect == "reflection" ? reflection : refraction;
@@ -86,6 +86,31 @@ void compareValues(const std::string& place, const std::map<std::string, double>
     }
 }
 
+std::string formatError(const BenchPoint& point, const std::string& name)
+{
+    const auto found = point.errors.find(name);
+    return found == point.errors.end() ? fmt::format(" {:>13}", "-") : fmt::format(" {:>13.6g}", found->second);
+}
+
+// How steady a method's answers are, against what they cost; nothing where it was not measured.
+std::optional<Chart> makeFlipsChart(const BenchScene& scene)
+{
+    if (!scene.trueFlips) return std::nullopt;
+    Chart chart{"projection_flips_" + chartIdOf(scene.name),
+                "Stability: " + scene.name,
+                "reads of the depth buffer or its pyramid, a pixel",
+                "share of the rays whose class flips where the camera moves by a hundredth of a pixel",
+                {}};
+    for (const BenchPoint& point : scene.points) {
+        if (point.counters.contains("Fetches") && point.errors.contains("Flips")) {
+            chart.points.push_back(
+                {point.method, point.counters.at("Fetches"), point.errors.at("Flips"), false, point.kind == "own"});
+        }
+    }
+    chart.points.push_back({"what really changes", 1, *scene.trueFlips, true});
+    return chart;
+}
+
 } // namespace
 
 std::vector<BudgetTerm> parseBudget(const std::string& text)
@@ -148,6 +173,8 @@ std::string formatBenchTable(const BenchScene& scene)
         text += fmt::format("; no screen shows where {:.1f} % of them end; the best reader of the depth buffer answers "
                             "{:.2f} % wrongly",
                             100 * scene.unknowable, 100 * scene.oracleWrong);
+        if (scene.trueFlips)
+            text += fmt::format("; a hundredth of a pixel changes {:.3f} % of them", 100 * *scene.trueFlips);
     }
     text += fmt::format("; reading and writing alone takes {:.3f} ms\n\n", scene.baselineMs);
     text += fmt::format("{:<40}", "method");
@@ -160,7 +187,7 @@ std::string formatBenchTable(const BenchScene& scene)
     for (const BenchPoint& point : scene.points) {
         text += fmt::format("{:<40}", point.method);
         for (const std::string& name : errorNames(scene.effect))
-            text += fmt::format(" {:>13.6g}", point.errors.at(name));
+            text += formatError(point, name);
         for (const CounterColumn& column : columns) {
             const double value = counterOr(point, column.name, -1);
             const bool isWhole = value >= 0 && value == std::floor(value) && scene.effect != "reflection";
@@ -213,6 +240,7 @@ std::vector<Chart> makeBenchCharts(const BenchResult& result)
         }
         reads.points.push_back({"what the depth buffer shows", 1, scene.oracleWrong, true});
         charts.insert(charts.end(), {wrong, reads});
+        if (const auto flips = makeFlipsChart(scene)) charts.push_back(*flips);
     }
     for (const auto& [name, scenes] : families) {
         const std::vector<Chart> made = findBenchFamily(name)->makeCharts(scenes, device);
