@@ -381,7 +381,8 @@ BenchScene benchCase(const Case& testCase, const BenchOptions& options, WorkerPo
     if (family != nullptr && family->prepare != nullptr) prepared = family->prepare(data);
     if (isReflection && family == nullptr) fillScene(makeYardstickScene(data), scene);
     std::optional<JitterViews> jitter;
-    if (isReflection && family == nullptr && !testCase.recorded && !testCase.history) {
+    const bool canMove = isReflection && family == nullptr && !testCase.recorded && !testCase.history;
+    if (options.jitter && canMove) {
         jitter = makeJitterViews(testCase, truth);
         scene.trueFlips = jitter->truth.share();
     }

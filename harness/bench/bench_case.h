@@ -38,10 +38,10 @@ struct BenchPoint {
     std::string method, kind;
     // By name, all so that less is better. Reflections: Wrong (missed or wrong answerable rays and claimed unanswerable
     // ones, of all rays), Missed (of the answerable), False (of the unanswerable), HitDepth (mean relative error over
-    // the answerable, 1 where there is no answer), HitPositionSS (median of the right hits, pixels), Flips (of the
-    // rays, those whose class changes where the camera moves by a hundredth of a pixel, the mean of 16 directions; of
-    // analytic scenes without a previous frame). Refractions: RayDirWS (mean, degrees), RayOriginWS and PathLength
-    // (mean, metres). Those of the other families: family.h.
+    // the answerable, 1 where there is no answer), HitPositionSS (median of the right hits, pixels), Flips (where asked
+    // for: of the rays, those whose class changes where the camera moves by a hundredth of a pixel, the mean of 16
+    // directions; of analytic scenes without a previous frame). Refractions: RayDirWS (mean, degrees), RayOriginWS and
+    // PathLength (mean, metres). Those of the other families: family.h.
     std::map<std::string, double> errors;
     // Fetches and FetchesOf32 (of the depth buffer, its pyramid or a pixel's surface, a pixel of the full image, and
     // the mean over 32 neighbouring rays of the largest), Iterations and IterationsOf32, counted by the shader; of
@@ -71,6 +71,7 @@ struct BenchOptions {
     std::string backend = "lavapipe";
     int rounds = 9;               // each runs every method once, A B C A B C; one more before them is not counted
     std::vector<BenchMethod> own; // beside the library's
+    bool jitter = false;          // measures Flips, in 16 runs more of each method
 };
 
 struct BenchResult {

@@ -77,6 +77,9 @@ void addBench(CLI::App& app, CommandLine& line)
         ->type_name("NAME=FILE")
         ->take_all()
         ->allow_extra_args(false);
+    bench.add_flag("--jitter", options.jitter,
+                   "Measure Flips of reflections too: classes that change where the camera moves by a hundredth of a "
+                   "pixel; 16 runs more of each method");
     bench.add_option("--rounds", options.rounds, "Each runs every method once; the median counts; default: 9")
         ->type_name("N")
         ->check(CLI::Range(1, 999));

@@ -77,6 +77,7 @@ int benchCases(const GlobalOptions& global, const BenchCasesOptions& options)
     BenchOptions bench;
     bench.backend = backends.names.front();
     bench.rounds = options.rounds;
+    bench.jitter = options.jitter;
     bench.own = std::move(own);
     BenchResult result;
     result.command = joinCommand(global.commandLine);

@@ -124,6 +124,7 @@ struct BenchCasesOptions {
     std::string backend = "lavapipe";
     std::vector<std::string> methods; // a person's own tracers, NAME=FILE
     int rounds = 9;
+    bool jitter = false; // measures Flips
     std::string budget;  // empty: none
     std::string output;  // folder; empty: none
     std::string compare; // an earlier bench.json; empty: none
