@@ -110,7 +110,7 @@ TEST(Conditioning, ofALineIsItsSlope)
     // One ulp of depth, three times that, in ulps of 1.
     EXPECT_NEAR(weight.condition.values[5], 3.0 * spacing / unit, 1e-6);
     EXPECT_EQ(weight.cause.values[5], static_cast<double>(InputGroup::kDepth));
-    EXPECT_EQ(describeConditioning(weight, 5), "HitWeight moves by 0.0059 ulp for an ulp of depth");
+    EXPECT_EQ(describeConditioning(weight, 5), "HitWeight moves by 0.094 ulp for an ulp of depth");
 }
 
 TEST(Conditioning, aStepFlipsWhereItStands)
