@@ -140,7 +140,7 @@ export function drawTracePanel(box, context) {
   const hasSteps = trace.backends.some((record) => record.steps.length > 0);
   const choose = (value) => update({ step: value });
   const table = hasSteps && h('div', { class: 'steps-box', tabindex: '0', role: 'region', 'aria-label': 'Steps' }, stepTable(trace, step, choose));
-  title.append(h('span', { class: 'dim' }, ' · drawn: diamond the start; dot a step that skips, square one that looks closer; ring a hit, cross none'));
+  title.append(h('span', { class: 'dim' }, ' · diamond: start; dot: skips a cell; square: looks closer; ring: hit; cross: none'));
   redraw(box, h('div', { class: 'trace-head' }, title, beside), h('div', { class: 'trace-facts' }, factLines(trace), verdict(trace)),
     hasSteps && h('div', { class: 'trace-body' }, table, depthChart(trace, step, choose) ?? ''));
   if (!hasSteps) return;
