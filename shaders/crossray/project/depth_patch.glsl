@@ -63,11 +63,15 @@ DepthDifference computeDepthDifference(bool orthographic, float firstDepth, floa
     return DepthDifference(choose(isEdge, 0.0, slope), !isEdge);
 }
 
-// Two slopes of one surface: they differ by less than `bend`, or by less than the flatter one, with the same sign.
+// By so much of itself a bound is wider than it says: depths in whole numbers have slopes in whole steps, and one of
+// them is often just twice its neighbour. A rounding must not decide that.
+const float kTieTolerance = 0.00390625; // 2^-8
+
+// Two slopes of one surface: they differ by at most `bend`, or by at most the flatter one, with the same sign.
 bool agree(float a, float b, float bend)
 {
     float flatter = choose(a * b > 0.0, min(abs(a), abs(b)), 0.0);
-    return abs(a - b) <= max(bend, flatter);
+    return abs(a - b) <= max(bend, flatter) * (1.0 + kTieTolerance);
 }
 
 // Slope of a cell along one axis (0 x, 1 y). Where the two sides differ, the side that goes on straight beyond its
