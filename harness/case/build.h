@@ -14,6 +14,12 @@ namespace crossray {
 // Looks up [tolerance.NAME] of presets.toml; throws InputError at the place that names it.
 using ToleranceLookup = std::function<const Node&(const Node& name)>;
 
+// The case that a tree states whose presets are laid in and whose [expand] is taken out. Throws InputError.
+Case buildCase(const Node& root, const std::filesystem::path& file, const Node* presets);
+// A value as it would stand in the file; what is not TOML is a string, so that `--set projection.model=hiz` needs no
+// quotes. Messages about it name the path.
+Node parseOverride(const std::string& path, const std::string& text);
+
 void buildScene(const TableReader& top, Case& testCase);
 void buildCamera(const TableReader& top, Case& testCase);
 void buildRecorded(const TableReader& top, Case& testCase);

@@ -97,4 +97,18 @@ const Node& findPreset(const Node* presets, std::string_view kind, const Node& n
                                                         suggest(name.text, names)));
 }
 
+void applyPresets(Node& root, const Node* presets)
+{
+    const Node* use = root.find("use");
+    if (!use) return;
+    const std::vector<Node> names = use->items;
+    for (auto name = names.rbegin(); name != names.rend(); ++name) {
+        if (name->kind != NodeKind::kString) {
+            throw InputError(name->place.position(),
+                             fmt::format("\"use\" holds {}; names are allowed", describeKind(name->kind)));
+        }
+        mergeUnder(root, findPreset(presets, "preset", *name));
+    }
+}
+
 } // namespace crossray

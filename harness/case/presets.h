@@ -16,4 +16,7 @@ std::shared_ptr<const Node> findPresets(const std::filesystem::path& folder);
 // A named table of the presets ("preset" or "tolerance"); throws InputError at `name` when it is not there.
 const Node& findPreset(const Node* presets, std::string_view kind, const Node& name);
 
+// Lays the presets that a case names in `use` under it; of two that set one key the later wins. Throws InputError.
+void applyPresets(Node& root, const Node* presets);
+
 } // namespace crossray

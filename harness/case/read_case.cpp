@@ -3,6 +3,7 @@
 #include "harness/case/case.h"
 
 #include "harness/case/build.h"
+#include "harness/case/expand.h"
 #include "harness/case/presets.h"
 
 #include <fmt/format.h>
@@ -15,15 +16,6 @@ namespace crossray {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr size_t kMostSubCases = 4096;
-
-// One key of [expand] with its values.
-struct Parameter {
-    std::string path;
-    Place keyPlace;
-    std::vector<Node> values;
-};
 
 bool isNameCharacter(char c)
 {
@@ -51,100 +43,6 @@ std::string withoutLineBreaks(std::string text)
     std::replace_if(
         text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
     return text;
-}
-
-// Dotted keys in TOML are tables in tables: whatever is no table is a list of values.
-void collectParameters(const Node& table, const std::string& prefix, std::vector<Parameter>& parameters)
-{
-    for (const NodeEntry& entry : table.entries) {
-        const std::string path = prefix.empty() ? entry.key : prefix + "." + entry.key;
-        const Node& value = entry.value;
-        if (value.kind == NodeKind::kTable) {
-            collectParameters(value, path, parameters);
-            continue;
-        }
-        if (value.kind != NodeKind::kList || value.items.empty()) {
-            throw InputError(value.place.position(),
-                             fmt::format("\"{}\" of [expand] is {}; a list of one value or more is allowed", path,
-                                         value.kind == NodeKind::kList ? "an empty list" : describeKind(value.kind)));
-        }
-        const std::string root = path.substr(0, path.find('.'));
-        for (const std::string_view own : {"schema", "name", "use", "expand"}) {
-            if (root == own)
-                throw InputError(entry.keyPlace.position(), fmt::format("\"{}\" cannot be expanded", path));
-        }
-        parameters.push_back({path, entry.keyPlace, value.items});
-    }
-}
-
-std::vector<Parameter> takeParameters(Node& root)
-{
-    const Node* expand = root.find("expand");
-    if (!expand) return {};
-    if (expand->kind != NodeKind::kTable) {
-        throw InputError(expand->place.position(),
-                         fmt::format("\"expand\" is {}; a table is allowed", describeKind(expand->kind)));
-    }
-    std::vector<Parameter> parameters;
-    collectParameters(*expand, "", parameters);
-    size_t product = 1;
-    for (const Parameter& parameter : parameters) {
-        product *= parameter.values.size();
-        if (product > kMostSubCases) {
-            throw InputError(
-                parameter.keyPlace.position(),
-                fmt::format("[expand] makes more than {} sub-cases; at most that many are allowed", kMostSubCases));
-        }
-    }
-    root.erase("expand");
-    return parameters;
-}
-
-// The last part of the path, or the whole path where two parameters end alike.
-std::string labelOf(const Parameter& parameter, const std::vector<Parameter>& all)
-{
-    const auto last = [](const std::string& path) { return path.substr(path.rfind('.') + 1); };
-    const std::string label = last(parameter.path);
-    const auto same = std::count_if(all.begin(), all.end(), [&](const Parameter& p) { return last(p.path) == label; });
-    return same > 1 ? parameter.path : label;
-}
-
-// Lays the presets that the file names under it; of two that set one key the later wins.
-void applyPresets(Node& root, const Node* presets)
-{
-    const Node* use = root.find("use");
-    if (!use) return;
-    const std::vector<Node> names = use->items;
-    for (auto name = names.rbegin(); name != names.rend(); ++name) {
-        if (name->kind != NodeKind::kString) {
-            throw InputError(name->place.position(),
-                             fmt::format("\"use\" holds {}; names are allowed", describeKind(name->kind)));
-        }
-        mergeUnder(root, findPreset(presets, "preset", *name));
-    }
-}
-
-// A value as it would stand in the file; what is not TOML is a string, so that `--set projection.model=hiz` needs no
-// quotes.
-Node parseOverride(const std::string& path, const std::string& text)
-{
-    const std::string fileName = "--set " + path;
-    try {
-        const Node root = parseToml("value = " + text, fileName);
-        if (root.entries.size() == 1) {
-            Node value = root.entries.front().value;
-            value.place.line = value.place.column = 0;
-            return value;
-        }
-    } catch (const InputError& error) {
-        const std::string message = std::string(error.what()).substr(error.position().format().size() + 2);
-        if (!message.starts_with("not valid TOML")) throw InputError({fileName}, message);
-    }
-    Node value;
-    value.kind = NodeKind::kString;
-    value.text = text;
-    value.place.file = std::make_shared<const std::string>(fileName);
-    return value;
 }
 
 void buildTop(const TableReader& top, Case& testCase)
@@ -200,6 +98,8 @@ void collectOutputs(const TableReader& top, Case& testCase)
     }
 }
 
+} // namespace
+
 Case buildCase(const Node& root, const fs::path& file, const Node* presets)
 {
     checkTable(root, "");
@@ -229,35 +129,53 @@ Case buildCase(const Node& root, const fs::path& file, const Node* presets)
     return testCase;
 }
 
+namespace {
+
 // Every combination of the parameters' values, the first parameter slowest.
 std::vector<Case> buildProduct(const Node& root, const std::vector<Parameter>& parameters, const fs::path& file,
                                const Node* presets)
 {
     std::vector<Case> cases;
     std::set<std::string> names;
-    std::vector<size_t> indices(parameters.size(), 0);
-    while (true) {
+    Combination combination(parameters.size(), 0);
+    do {
         Node variant = root;
-        std::string label;
-        for (size_t i = 0; i < parameters.size(); ++i) {
-            const Node& value = parameters[i].values[indices[i]];
-            setByPath(variant, parameters[i].path, parameters[i].keyPlace, value);
-            label += fmt::format("{}{}={}", i == 0 ? "" : ",", labelOf(parameters[i], parameters), formatValue(value));
-        }
+        for (size_t i = 0; i < parameters.size(); ++i)
+            setByPath(variant, parameters[i].path, parameters[i].keyPlace, parameters[i].values[combination[i]]);
         cases.push_back(buildCase(variant, file, presets));
-        if (!parameters.empty()) cases.back().name += "[" + label + "]";
+        cases.back().name += formatLabel(parameters, combination);
         if (!names.insert(cases.back().name).second) {
-            throw InputError(parameters.back().values[indices.back()].place.position(),
+            throw InputError(parameters.back().values[combination.back()].place.position(),
                              fmt::format("[expand] makes \"{}\" twice; each name once is allowed", cases.back().name));
         }
-        size_t i = parameters.size();
-        while (i > 0 && ++indices[i - 1] == parameters[i - 1].values.size())
-            indices[--i] = 0;
-        if (i == 0) return cases;
-    }
+    } while (advance(parameters, combination));
+    return cases;
 }
 
 } // namespace
+
+// A value as it would stand in the file; what is not TOML is a string, so that `--set projection.model=hiz` needs no
+// quotes.
+Node parseOverride(const std::string& path, const std::string& text)
+{
+    const std::string fileName = "--set " + path;
+    try {
+        const Node root = parseToml("value = " + text, fileName);
+        if (root.entries.size() == 1) {
+            Node value = root.entries.front().value;
+            value.place.line = value.place.column = 0;
+            return value;
+        }
+    } catch (const InputError& error) {
+        const std::string message = std::string(error.what()).substr(error.position().format().size() + 2);
+        if (!message.starts_with("not valid TOML")) throw InputError({fileName}, message);
+    }
+    Node value;
+    value.kind = NodeKind::kString;
+    value.text = text;
+    value.place.file = std::make_shared<const std::string>(fileName);
+    return value;
+}
 
 std::vector<Case> readCaseFile(const fs::path& file)
 {

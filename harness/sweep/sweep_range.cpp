@@ -1,6 +1,6 @@
 // The values that a parameter takes, and which keys of the case format can be one.
 #include "harness/base/error.h"
-#include "harness/case/schema.h"
+#include "harness/case/key_path.h"
 #include "harness/sweep/sweep.h"
 
 #include <fmt/format.h>
@@ -15,17 +15,6 @@ namespace {
 
 constexpr int kMostSteps = 1000;
 
-std::vector<std::string> split(const std::string& text, char separator)
-{
-    std::vector<std::string> parts;
-    for (size_t begin = 0;;) {
-        const size_t end = text.find(separator, begin);
-        parts.push_back(text.substr(begin, end - begin));
-        if (end == std::string::npos) return parts;
-        begin = end + 1;
-    }
-}
-
 template <typename Number>
 bool readNumber(const std::string& text, Number& number)
 {
@@ -37,11 +26,6 @@ bool readNumber(const std::string& text, Number& number)
 {
     throw InputError(
         fmt::format("\"{}\": {}; allowed is FROM..TO[:STEPS][:log], such as 0.5..2.5:40 or 1..8192:14:log", text, why));
-}
-
-bool isIndex(const std::string& part)
-{
-    return !part.empty() && std::all_of(part.begin(), part.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
 bool isSwept(const KeySpec& spec)
@@ -60,50 +44,26 @@ bool isSwept(const KeySpec& spec)
     return !spec.table.empty() && !spec.table.starts_with("expect");
 }
 
-bool isList(const KeySpec& spec)
-{
-    return spec.type != KeyType::kNumber && spec.type != KeyType::kInteger;
-}
-
-// A path without its indices; tables that are one format wherever they stand by the name that the schema gives them.
-std::string schemaPath(const std::vector<std::string>& parts)
-{
-    std::string path;
-    for (const std::string& part : parts) {
-        if (isIndex(part)) continue;
-        if (part == "rotation" && &part != &parts.back() && !isIndex(parts.back()))
-            path = part;
-        else if (part == "environment")
-            path = part;
-        else if (part == "gradient")
-            path = "scene.sky";
-        else
-            path += (path.empty() ? "" : ".") + (part == "primitive" ? "primitives" : part);
-    }
-    return path;
-}
-
 // "scene.primitives.N.center.N": an index stands behind each list.
 std::string describePath(const KeySpec& spec)
 {
     std::string path;
-    for (const std::string& part : split(spec.path(), '.')) {
+    for (const std::string& part : splitPath(spec.path())) {
         path += (path.empty() ? "" : ".") + part;
         const bool isTableList = path == "scene.primitives" || path == "probe" || path == "history.moved";
         if (isTableList) path += ".N";
     }
-    return path + (isList(spec) ? ".N" : "");
+    return path + (isNumberList(spec) ? ".N" : "");
 }
 
 const KeySpec& findSweptKey(const std::string& path)
 {
-    const std::vector<std::string> parts = split(path, '.');
-    const std::string wanted = schemaPath(parts);
+    const PathTarget target = findPathTarget(path);
+    if (target.spec != nullptr && isSwept(*target.spec) && isNumberList(*target.spec) == target.isComponent)
+        return *target.spec;
     std::vector<std::string> allowed;
     for (const KeySpec& spec : keySpecs()) {
-        if (!isSwept(spec)) continue;
-        if (spec.path() == wanted && isList(spec) == isIndex(parts.back())) return spec;
-        allowed.push_back(describePath(spec));
+        if (isSwept(spec)) allowed.push_back(describePath(spec));
     }
     throw InputError(fmt::format("\"{}\" is no number of the case format{}", path, suggest(path, allowed)));
 }
@@ -113,7 +73,7 @@ const KeySpec& findSweptKey(const std::string& path)
 SweepRange SweepRange::parse(const std::string& text)
 {
     SweepRange range;
-    const std::vector<std::string> parts = split(text, ':');
+    const std::vector<std::string> parts = splitPath(text, ':');
     const size_t dots = parts[0].find("..");
     if (dots == std::string::npos || !readNumber(parts[0].substr(0, dots), range.from) ||
         !readNumber(parts[0].substr(dots + 2), range.to) || !std::isfinite(range.from) || !std::isfinite(range.to)) {
@@ -157,7 +117,7 @@ std::vector<double> SweepRange::values(bool isInteger) const
 SweepKeys SweepKeys::parse(const std::string& text)
 {
     SweepKeys keys;
-    keys.paths = split(text, ',');
+    keys.paths = splitPath(text, ',');
     keys.isInteger = true;
     for (const std::string& path : keys.paths) {
         const KeySpec& spec = findSweptKey(path);
