@@ -30,7 +30,8 @@ add_custom_command(
 crossray_module(report USES run PACKAGES nlohmann_json::nlohmann_json ZLIB::ZLIB)
 target_sources(crossray_report PRIVATE ${web_source})
 crossray_module(sweep USES inspect)
-crossray_module(cli USES bench inspect report sweep PACKAGES CLI11::CLI11 PNG::PNG)
+crossray_module(inspector USES inspect report PACKAGES PkgConfig::httplib)
+crossray_module(cli USES bench inspect inspector report sweep PACKAGES CLI11::CLI11 PNG::PNG)
 # CLI11 is a header of templates that the optimiser spends minutes on, for a command line that is parsed once.
 set_source_files_properties(harness/cli/command_line.cpp harness/cli/command_line_bench.cpp PROPERTIES COMPILE_OPTIONS "-O0")
 

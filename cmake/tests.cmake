@@ -15,7 +15,7 @@ function(crossray_test_program name)
                        PROPERTIES TIMEOUT 300)
 endfunction()
 
-foreach(module base scene compile backend backend_cpu backend_vulkan backend_gl judge case expect pass run bench inspect report sweep cli)
+foreach(module base scene compile backend backend_cpu backend_vulkan backend_gl judge case expect pass run bench inspect inspector report sweep cli)
   file(GLOB test_sources CONFIGURE_DEPENDS tests/unit/${module}/*_test.cpp)
   if(test_sources AND TARGET crossray_${module})
     crossray_test_program(test_${module} SOURCES ${test_sources} USES crossray_${module})
@@ -38,6 +38,9 @@ if(TARGET test_run)
   add_executable(worker_program tests/unit/run/worker_program.cpp)
   target_link_libraries(worker_program PRIVATE crossray_run)
   add_dependencies(test_run worker_program)
+  if(TARGET test_inspector)
+    add_dependencies(test_inspector worker_program)
+  endif()
 endif()
 
 # What holds over any image, on each driver.

@@ -33,7 +33,7 @@ std::string schemaPath(const std::vector<std::string>& parts)
         else if (part == "gradient")
             path = "scene.sky";
         else
-            path += (path.empty() ? "" : ".") + (part == "primitive" ? "primitives" : part);
+            path += (path.empty() ? "" : ".") + (part == "primitive" && path == "scene" ? "primitives" : part);
     }
     return path;
 }

@@ -167,6 +167,15 @@ void addInspection(CLI::App& app, CommandLine& line)
                    "Measure how many output ulp an input ulp becomes, also where the image is large");
     trace.callback([&line] { line.verb = [&line] { return traceCase(line.global, line.trace); }; });
 
+    CLI::App& inspect =
+        *app.add_subcommand("inspect", "Look at cases live in a browser: turn their keys, trace pixels");
+    addSelection(inspect, line.inspect.selection);
+    inspect.add_option("--port", line.inspect.port, "Of 127.0.0.1; default: 0, a free one")
+        ->type_name("N")
+        ->check(CLI::Range(0, 65535));
+    inspect.add_flag("--open", line.inspect.open, "In the browser");
+    inspect.callback([&line] { line.verb = [&line] { return inspectCases(line.global, line.inspect); }; });
+
     CLI::App& diff = *app.add_subcommand("diff", "Compare two runs, or two EXR files of planes");
     diff.add_option("before", line.before, "A run's folder, its run.json, or an .exr")->type_name("A")->required();
     diff.add_option("after", line.after, "The same kind")->type_name("B")->required();

@@ -18,6 +18,7 @@ struct CommandLine {
     bool listJson = false;
     ShowOptions show;
     TraceOptions trace;
+    InspectVerbOptions inspect;
     ThroughputVerbOptions throughput;
     TracersVerbOptions tracers;
     BenchCasesOptions bench;

@@ -1,3 +1,4 @@
+#include "harness/cli/browser.h"
 #include "harness/cli/verbs.h"
 
 #include "harness/base/text.h"
@@ -5,9 +6,6 @@
 #include "harness/run/run_json.h"
 
 #include <fmt/format.h>
-
-#include <spawn.h>
-#include <unistd.h>
 
 namespace crossray {
 
@@ -28,18 +26,6 @@ fs::path chooseTarget(const ReportVerbOptions& options, const fs::path& runFolde
     if (options.output.empty()) return runFolder / "report.html";
     const fs::path given = options.output;
     return given.extension() == ".html" ? given : given / "report.html";
-}
-
-// xdg-open leaves the browser behind and ends.
-void openInBrowser(const fs::path& page)
-{
-    const std::string file = fs::absolute(page).string();
-    std::string program = "xdg-open", argument = file;
-    char* const arguments[] = {program.data(), argument.data(), nullptr};
-    pid_t process = 0;
-    if (posix_spawnp(&process, program.c_str(), nullptr, nullptr, arguments, environ) != 0) {
-        throw EnvironmentError(fmt::format("--open: there is no xdg-open; open {} yourself", file));
-    }
 }
 
 } // namespace
@@ -65,7 +51,7 @@ int reportRun(const ReportVerbOptions& options)
     const fs::path page = options.isSingle ? target : target / "index.html";
     fmt::print("{}: {} in {} file{}, {:.1f} MB\n", page.generic_string(), formatCounts(countVerdicts(run)),
                summary.files, summary.files == 1 ? "" : "s", static_cast<double>(summary.bytes) * 1e-6);
-    if (options.open) openInBrowser(page);
+    if (options.open) openInBrowser(fs::absolute(page).string());
     return static_cast<int>(ExitCode::kAsExpected);
 }
 

@@ -80,6 +80,13 @@ struct TraceOptions {
 };
 int traceCase(const GlobalOptions& global, const TraceOptions& options);
 
+struct InspectVerbOptions {
+    SelectionOptions selection;
+    int port = 0;      // 0: a free one
+    bool open = false; // in a browser
+};
+int inspectCases(const GlobalOptions& global, const InspectVerbOptions& options);
+
 struct CompileVerbOptions {
     std::string shader;
     std::string target = "glsl";

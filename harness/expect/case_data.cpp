@@ -13,8 +13,9 @@ namespace crossray {
 
 struct CaseData::Lazy {
     std::mutex mutex;
-    std::optional<std::vector<SurfacePoint>> surfaces;
-    std::optional<Truth> truth;
+    std::shared_ptr<const std::vector<SurfacePoint>>
+        surfaces; // both shared with the data of a case that is alike there
+    std::shared_ptr<const Truth> truth;
     std::optional<std::vector<Cubemap>> environments;
     std::optional<std::vector<Plane>> colorLevels;
 };
@@ -142,16 +143,63 @@ std::vector<GBufferChannel> channelsFor(const Case& testCase)
     return channels;
 }
 
-CaseData::CaseData(const Case& testCase)
-    : testCase_(testCase), gbuffer_(makeGBuffer(testCase)),
-      traced_(testCase.recorded ? findRecordedPixels(gbuffer_, testCase.recorded->tracedObject)
-                                : findTracedPixels(testCase.scene, gbuffer_, testCase.effect)),
-      lazy_(std::make_unique<Lazy>())
+namespace {
+
+bool isSameFile(const std::optional<RecordedGBuffer>& a, const std::optional<RecordedGBuffer>& b)
 {
-    if (testCase.screenLayer == ScreenLayer::kOpaque)
-        opaque_ = renderGBuffer(makeOpaqueScene(testCase.scene), testCase.camera, channelsFor(testCase));
+    if (!a || !b) return a.has_value() == b.has_value();
+    return a->file == b->file && a->cameraFile == b->cameraFile && a->truthFile == b->truthFile &&
+           a->channels == b->channels && a->tracedObject == b->tracedObject;
+}
+
+// No picture shows what glass does to light.
+Scene asSeen(Scene scene)
+{
+    for (Primitive& primitive : scene.primitives)
+        primitive.ior = 1;
+    return scene;
+}
+
+bool showsTheSame(const Case& a, const Case& b)
+{
+    return a.camera == b.camera && isSameFile(a.recorded, b.recorded) && asSeen(a.scene) == asSeen(b.scene);
+}
+
+bool hasChannels(const GBuffer& gbuffer, const std::vector<GBufferChannel>& channels)
+{
+    return std::all_of(channels.begin(), channels.end(),
+                       [&](GBufferChannel channel) { return gbuffer.planes.contains(channel); });
+}
+
+} // namespace
+
+CaseData::CaseData(const Case& testCase) : CaseData(testCase, nullptr) {}
+CaseData::CaseData(const Case& testCase, const CaseData& earlier) : CaseData(testCase, &earlier) {}
+
+CaseData::CaseData(const Case& testCase, const CaseData* earlier) : testCase_(testCase), lazy_(std::make_unique<Lazy>())
+{
+    const bool showsSame = earlier != nullptr && showsTheSame(testCase, earlier->testCase_);
+    const std::vector<GBufferChannel> channels = channelsFor(testCase);
+    if (showsSame && hasChannels(*earlier->gbuffer_, channels))
+        gbuffer_ = earlier->gbuffer_;
+    else
+        gbuffer_ = std::make_shared<const GBuffer>(makeGBuffer(testCase));
+    traced_ = testCase.recorded ? findRecordedPixels(*gbuffer_, testCase.recorded->tracedObject)
+                                : findTracedPixels(testCase.scene, *gbuffer_, testCase.effect);
+    if (testCase.screenLayer == ScreenLayer::kOpaque) {
+        if (showsSame && earlier->opaque_ && hasChannels(*earlier->opaque_, channels))
+            opaque_ = earlier->opaque_;
+        else
+            opaque_ = std::make_shared<const GBuffer>(
+                renderGBuffer(makeOpaqueScene(testCase.scene), testCase.camera, channels));
+    }
     if (testCase.history) history_ = makeFrameHistory(testCase);
     if (testCase.material.thicknessMap) thicknessMap_ = makeThicknessMap(testCase);
+    if (!showsSame || testCase.effect != earlier->testCase_.effect) return;
+    const std::lock_guard lock(earlier->lazy_->mutex);
+    if (!thicknessMap_ && !earlier->thicknessMap_) lazy_->surfaces = earlier->lazy_->surfaces;
+    if (testCase.screenLayer == earlier->testCase_.screenLayer && testCase.scene == earlier->testCase_.scene)
+        lazy_->truth = earlier->lazy_->truth;
 }
 
 CaseData::~CaseData() = default;
@@ -162,11 +210,13 @@ const std::vector<SurfacePoint>& CaseData::surfaces() const
 {
     const std::lock_guard lock(lazy_->mutex);
     if (!lazy_->surfaces) {
-        lazy_->surfaces = testCase_.recorded ? readSurfaces(gbuffer_, traced_)
-                                             : castSurfaces(testCase_.scene, testCase_.camera, traced_);
+        std::vector<SurfacePoint> surfaces = testCase_.recorded
+                                                 ? readSurfaces(*gbuffer_, traced_)
+                                                 : castSurfaces(testCase_.scene, testCase_.camera, traced_);
         for (size_t pixel = 0; thicknessMap_ && pixel < traced_.size(); ++pixel) {
-            (*lazy_->surfaces)[pixel].thickness = thicknessMap_->values[pixel] * testCase_.material.thicknessMultiplier;
+            surfaces[pixel].thickness = thicknessMap_->values[pixel] * testCase_.material.thicknessMultiplier;
         }
+        lazy_->surfaces = std::make_shared<const std::vector<SurfacePoint>>(std::move(surfaces));
     }
     return *lazy_->surfaces;
 }
@@ -195,7 +245,7 @@ const std::vector<Plane>& CaseData::colorLevels() const
 const Truth& CaseData::truth() const
 {
     const std::lock_guard lock(lazy_->mutex);
-    if (!lazy_->truth) lazy_->truth = makeTruth(testCase_, gbuffer_);
+    if (!lazy_->truth) lazy_->truth = std::make_shared<const Truth>(makeTruth(testCase_, *gbuffer_));
     return *lazy_->truth;
 }
 

@@ -34,14 +34,17 @@ class CaseData {
   public:
     // Throws InputError: an invalid camera or scene, recorded files that cannot be read.
     explicit CaseData(const Case& testCase);
+    // The same, with what `earlier` has made and this case would make alike: G-buffer, surfaces and truth hang on scene
+    // and camera alone, and not on the material or the projection.
+    CaseData(const Case& testCase, const CaseData& earlier);
     ~CaseData();
     CaseData(CaseData&&) noexcept;
     CaseData& operator=(CaseData&&) noexcept;
 
     const Case& testCase() const { return testCase_; }
-    const GBuffer& gbuffer() const { return gbuffer_; }
+    const GBuffer& gbuffer() const { return *gbuffer_; }
     // What rays are traced in: the G-buffer, or that of what is opaque (depth, normal, and colour where it has one).
-    const GBuffer& screen() const { return opaque_ ? *opaque_ : gbuffer_; }
+    const GBuffer& screen() const { return opaque_ ? *opaque_ : *gbuffer_; }
 
     // Pixels that trace a ray: those whose nearest surface is a mirror (reflection) or glass (refraction), in recorded
     // data those of the traced object (any surface when it is 0).
@@ -67,10 +70,11 @@ class CaseData {
 
   private:
     struct Lazy;
+    CaseData(const Case& testCase, const CaseData* earlier);
 
     Case testCase_;
-    GBuffer gbuffer_;
-    std::optional<GBuffer> opaque_;
+    std::shared_ptr<const GBuffer> gbuffer_; // shared with the data of a case that shows the same
+    std::shared_ptr<const GBuffer> opaque_;  // null: the same as the G-buffer
     std::vector<bool> traced_;
     std::optional<FrameHistory> history_;
     std::optional<Plane> thicknessMap_;

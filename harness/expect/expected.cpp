@@ -1,6 +1,7 @@
 #include "harness/expect/expect.h"
 
 #include "harness/base/error.h"
+#include "harness/base/work_watch.h"
 #include "harness/expect/quantities.h"
 #include "harness/scene/exr.h"
 
@@ -143,7 +144,9 @@ Plane computePlane(const CaseData& data, const Quantity& quantity, std::string_v
     Plane plane = makePlane(data, expectation.output);
     const std::vector<bool>& traced = data.tracedPixels();
     const auto channels = static_cast<size_t>(plane.channels);
+    const auto width = static_cast<size_t>(plane.width);
     for (size_t pixel = 0; pixel < traced.size(); ++pixel) {
+        if (pixel % width == 0) noteWork(pixel / width, static_cast<size_t>(plane.height));
         if (!traced[pixel]) continue;
         storeAnswer(&plane.values[pixel * channels], static_cast<Output>(expectation.output.id),
                     quantity.answer(input, pixel));

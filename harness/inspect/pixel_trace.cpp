@@ -51,6 +51,14 @@ double relativeDifference(double a, double b)
     return size > 0 ? std::abs(a - b) / size : 0;
 }
 
+void requireTraced(const Case& testCase, std::span<const std::string> backends)
+{
+    for (const std::string& backend : backends) {
+        if (const std::string why = whyNotTraced(testCase, backend); !why.empty())
+            throw InputError(fmt::format("{}: {} is not traced there: {}", backend, testCase.name, why));
+    }
+}
+
 PixelRecord recordOn(const std::string& backend, const CaseData& data, glm::ivec2 pixel, const TraceWorkers& workers)
 {
     const Precision precision = usesDoubles(backend) ? Precision::kDouble : Precision::kFloat;
@@ -108,11 +116,15 @@ std::string whyNotTraced(const Case& testCase, const std::string& backend)
 PixelTrace tracePixel(const Case& testCase, glm::ivec2 pixel, std::span<const std::string> backends,
                       const TraceWorkers& workers)
 {
-    for (const std::string& backend : backends) {
-        if (const std::string why = whyNotTraced(testCase, backend); !why.empty())
-            throw InputError(fmt::format("{}: {} is not traced there: {}", backend, testCase.name, why));
-    }
-    const CaseData data(prepareForRecord(testCase));
+    requireTraced(testCase, backends);
+    return tracePixel(CaseData(prepareForRecord(testCase)), pixel, backends, workers);
+}
+
+PixelTrace tracePixel(const CaseData& data, glm::ivec2 pixel, std::span<const std::string> backends,
+                      const TraceWorkers& workers)
+{
+    const Case& testCase = data.testCase();
+    requireTraced(testCase, backends);
     PixelTrace trace{testCase.name, testCase.summary, pixel, {}, {}, {}, {}};
     for (const std::string& backend : backends)
         trace.records.push_back({backend, recordOn(backend, data, pixel, workers)});

@@ -62,7 +62,10 @@ struct TraceWorkers {
 // Runs the case for one pixel on each backend. Throws InputError (the pixel is outside), ShaderError, EnvironmentError.
 PixelTrace tracePixel(const Case& testCase, glm::ivec2 pixel, std::span<const std::string> backends,
                       const TraceWorkers& workers);
-// The same with workers of its own.
+// The same of data that are there already: of a case from prepareForRecord().
+PixelTrace tracePixel(const CaseData& data, glm::ivec2 pixel, std::span<const std::string> backends,
+                      const TraceWorkers& workers);
+// With workers of its own.
 PixelTrace tracePixel(const Case& testCase, glm::ivec2 pixel, std::span<const std::string> backends,
                       const Folders& folders);
 

@@ -32,14 +32,12 @@ std::string shuffleFloats(const Plane& plane)
     return bytes;
 }
 
-std::string deflateBytes(const std::string& bytes)
+std::string deflateBytes(const std::string& bytes, int level)
 {
-    constexpr int kLevel = 5;
     uLongf size = compressBound(static_cast<uLong>(bytes.size()));
     std::string packed(size, '\0');
-    const int status =
-        compress2(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
-                  static_cast<uLong>(bytes.size()), kLevel);
+    const int status = compress2(reinterpret_cast<Bytef*>(packed.data()), &size,
+                                 reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uLong>(bytes.size()), level);
     if (status != Z_OK) throw std::logic_error(fmt::format("zlib's compress2 says {}", status));
     packed.resize(size);
     return packed;
@@ -49,7 +47,7 @@ std::string deflateBytes(const std::string& bytes)
 
 std::string packPlane(const Plane& plane)
 {
-    return deflateBytes(shuffleFloats(plane));
+    return deflateBytes(shuffleFloats(plane), kPlaneLevel);
 }
 
 std::string PlaneEncoder::encode(const std::string& source, std::span<const Plane> planes)
@@ -64,7 +62,7 @@ std::string PlaneEncoder::encode(const std::string& source, std::span<const Plan
         if (same != others.end()) {
             entry["same"] = same->source;
         } else {
-            entry["data"] = encodeBase64(deflateBytes(bytes));
+            entry["data"] = encodeBase64(deflateBytes(bytes, level_));
             others.push_back({source, std::move(bytes)});
         }
         list.push_back(std::move(entry));

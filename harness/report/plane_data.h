@@ -12,9 +12,13 @@
 
 namespace crossray {
 
+inline constexpr int kPlaneLevel = 5;
+
 // Remembers which planes of a case have been written, so that an answer with the same bits as another's is a reference.
 class PlaneEncoder {
   public:
+    // `level`: zlib's, from 1, quick, to 9, small.
+    explicit PlaneEncoder(int level = kPlaneLevel) : level_(level) {}
     // {"width":..,"height":..,"planes":[{"name":..,"channels":..,"data":BASE64 or "same":SOURCE}]}
     std::string encode(const std::string& source, std::span<const Plane> planes);
     // Takes the last encode() back: what it made is not part of the report.
@@ -25,6 +29,7 @@ class PlaneEncoder {
         std::string source;
         std::string bytes;
     };
+    int level_;
     std::map<std::string, std::vector<Written>> written_; // by the plane's name
 };
 

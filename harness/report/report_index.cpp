@@ -112,6 +112,11 @@ bool hasFailed(const CaseResult& testCase)
                        [](const BackendResult& result) { return tallyOf(result.verdict) == Tally::kFailed; });
 }
 
+std::string formatIndexCase(const CaseResult& testCase, const CasePieces& pieces)
+{
+    return formatCase(testCase, pieces).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 std::string formatIndexJson(const RunResult& run, const ReportOptions& options, const ReportIndex& index)
 {
     Json cases = Json::array();

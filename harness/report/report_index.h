@@ -31,6 +31,8 @@ struct ReportIndex {
 };
 
 bool hasFailed(const CaseResult& testCase);
+// One entry of its list of cases.
+std::string formatIndexCase(const CaseResult& testCase, const CasePieces& pieces);
 std::string formatIndexJson(const RunResult& run, const ReportOptions& options, const ReportIndex& index);
 
 } // namespace crossray

@@ -56,9 +56,8 @@ BackendResult makeErrorResult(const std::string& backend, const std::string& err
     return result;
 }
 
-Answer askBackend(const Case& testCase, const PreparedCase& prepared, CaseJudge& judge, const std::string& backend,
-                  int core, const ExecuteOptions& options, const ExecuteSteps& steps,
-                  const std::atomic<bool>& interrupted)
+Answer fetchAnswer(const Case& testCase, const PreparedCase& prepared, const std::string& backend, int core,
+                   const ExecuteOptions& options, const ExecuteSteps& steps, const std::atomic<bool>& interrupted)
 {
     const Job& job = usesDoubles(backend) ? *prepared.doubleJob : *prepared.floatJob;
     const std::chrono::duration<double> timeout(options.timeoutSeconds.value_or(testCase.timeoutSeconds));
@@ -82,6 +81,15 @@ Answer askBackend(const Case& testCase, const PreparedCase& prepared, CaseJudge&
             answer.difference = describeDifference(answer.planes, planes, repeat + 1);
         }
     }
+    return answer;
+}
+
+Answer askBackend(const Case& testCase, const PreparedCase& prepared, CaseJudge& judge, const std::string& backend,
+                  int core, const ExecuteOptions& options, const ExecuteSteps& steps,
+                  const std::atomic<bool>& interrupted)
+{
+    Answer answer = fetchAnswer(testCase, prepared, backend, core, options, steps, interrupted);
+    if (answer.planes.empty()) return answer;
     const auto start = std::chrono::steady_clock::now();
     answer.result.expectations = judge.judgeAlone(backend, answer.planes);
     answer.result.times.judge =

@@ -16,7 +16,11 @@ struct Answer {
     std::string difference;    // between repeats; empty when there is none
 };
 
-// Runs the job as often as the options ask. Throws InputError when the case turns out to be broken.
+// Runs the job as often as the options ask, and judges nothing. Throws InputError when the case turns out to be broken.
+Answer fetchAnswer(const Case& testCase, const PreparedCase& prepared, const std::string& backend, int core,
+                   const ExecuteOptions& options, const ExecuteSteps& steps, const std::atomic<bool>& interrupted);
+
+// The same with the expectations that need no other backend judged.
 Answer askBackend(const Case& testCase, const PreparedCase& prepared, CaseJudge& judge, const std::string& backend,
                   int core, const ExecuteOptions& options, const ExecuteSteps& steps,
                   const std::atomic<bool>& interrupted);

@@ -14,6 +14,20 @@
 
 namespace crossray {
 
+CaseResult startCaseResult(const Case& testCase)
+{
+    CaseResult result;
+    result.name = testCase.name;
+    result.summary = testCase.summary;
+    result.tags = testCase.tags;
+    result.position = testCase.position;
+    if (result.position.file.empty()) result.position.file = testCase.file.string();
+    result.width = testCase.camera.width;
+    result.height = testCase.camera.height;
+    result.mustFail = testCase.mustFail;
+    return result;
+}
+
 bool usesDoubles(const std::string& backend)
 {
     return backend == "cpu64";
@@ -50,20 +64,6 @@ std::vector<std::string> orderForSchedule(std::vector<std::string> backends)
     std::stable_sort(backends.begin(), backends.end(),
                      [&](const std::string& a, const std::string& b) { return rank(a) < rank(b); });
     return backends;
-}
-
-CaseResult startCaseResult(const Case& testCase)
-{
-    CaseResult result;
-    result.name = testCase.name;
-    result.summary = testCase.summary;
-    result.tags = testCase.tags;
-    result.position = testCase.position;
-    if (result.position.file.empty()) result.position.file = testCase.file.string();
-    result.width = testCase.camera.width;
-    result.height = testCase.camera.height;
-    result.mustFail = testCase.mustFail;
-    return result;
 }
 
 class Execution {

@@ -67,6 +67,9 @@ class RunObserver {
     virtual void tick() = 0; // ten times a second
 };
 
+// What is known of a case before any backend has answered.
+CaseResult startCaseResult(const Case& testCase);
+
 // Whether the backend computes in doubles and so needs the job of that precision.
 bool usesDoubles(const std::string& backend);
 

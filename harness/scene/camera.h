@@ -25,6 +25,7 @@ struct Camera {
     double farDistance = 100.0;    // metres, > near; ignored by kInfiniteReversed
     int width = 64;                // pixels
     int height = 64;
+    bool operator==(const Camera&) const = default;
 };
 
 struct Ray {

@@ -1,6 +1,7 @@
 #include "harness/scene/gbuffer.h"
 
 #include "harness/base/error.h"
+#include "harness/base/work_watch.h"
 #include "harness/scene/camera_frame.h"
 
 #include <fmt/format.h>
@@ -110,11 +111,13 @@ GBuffer renderGBuffer(const Scene& scene, const Camera& camera, std::span<const 
     }
     const CameraFrame frame(camera);
     size_t pixel = 0;
-    for (int y = 0; y < camera.height; ++y)
+    for (int y = 0; y < camera.height; ++y) {
+        noteWork(static_cast<size_t>(y), static_cast<size_t>(camera.height));
         for (int x = 0; x < camera.width; ++x, ++pixel) {
             const Ray ray = frame.primaryRay({x + 0.5, y + 0.5});
             storePixel(targets, pixel, scene, frame, ray, castPrimaryRay(scene, frame, ray));
         }
+    }
     return gbuffer;
 }
 

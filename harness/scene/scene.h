@@ -25,6 +25,7 @@ struct Radiance {
     glm::dvec3 colorB{0.2};
     double cellSize = 0.5; // metres
     int axis = 1;          // gradient: 0 x, 1 y, 2 z of the local frame
+    bool operator==(const Radiance&) const = default;
 };
 
 // Lens: what two spheres of one radius share, its axis the local z. Torus: a ring around the local z.
@@ -44,6 +45,7 @@ struct Primitive {
     std::string material = "diffuse"; // "diffuse", "mirror" (traced by reflection) or "glass" (traced by refraction)
     double ior = 1.5;                 // glass
     int objectIndex = 0;              // 0: numbered by order, from 1
+    bool operator==(const Primitive&) const = default;
 };
 
 // Radiance by direction: zenith to horizon to nadir, linear in the angle's sine (dot with up).
@@ -51,12 +53,14 @@ struct Sky {
     glm::dvec3 zenith{0.25, 0.45, 0.85};
     glm::dvec3 horizon{0.75, 0.85, 0.95};
     glm::dvec3 nadir{0.2, 0.18, 0.16};
+    bool operator==(const Sky&) const = default;
 };
 
 struct Scene {
     std::vector<Primitive> primitives;
     Sky sky;
     glm::dvec3 upWS{0.0, 1.0, 0.0};
+    bool operator==(const Scene&) const = default;
 };
 
 struct SurfaceHit {

@@ -1,6 +1,7 @@
 #include "harness/scene/truth.h"
 
 #include "harness/base/error.h"
+#include "harness/base/work_watch.h"
 #include "harness/scene/camera_frame.h"
 #include "harness/scene/refraction.h"
 
@@ -123,9 +124,11 @@ Truth computeTruth(const Scene& scene, const Camera& camera, TraceEffect effect,
     truth.height = camera.height;
     truth.pixels.reserve(static_cast<size_t>(camera.width) * static_cast<size_t>(camera.height));
     const Tracer tracer(scene, camera, effect, layer);
-    for (int y = 0; y < camera.height; ++y)
+    for (int y = 0; y < camera.height; ++y) {
+        noteWork(static_cast<size_t>(y), static_cast<size_t>(camera.height));
         for (int x = 0; x < camera.width; ++x)
             truth.pixels.push_back(tracer.trace(x, y));
+    }
     return truth;
 }
 
