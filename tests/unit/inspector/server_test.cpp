@@ -198,7 +198,7 @@ TEST_F(ServerTest, clientsThatHangKeepNobodyWaiting)
             std::make_unique<RawClient>(server_->port(), i % 2 == 0 ? "" : "POST /render HTTP/1.1\r\nHost:"));
     const auto start = std::chrono::steady_clock::now();
     EXPECT_EQ(statusOf("/alive" + token_, ""), 200);
-    EXPECT_LT(std::chrono::steady_clock::now() - start, 2s);
+    EXPECT_LT(std::chrono::steady_clock::now() - start, 4s); // less than a silent client is granted
 }
 
 TEST_F(ServerTest, twoClientsAtOnceAreBothAnswered)
