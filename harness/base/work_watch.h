@@ -21,6 +21,9 @@ class WorkWatch {
   public:
     void cancel() { isCancelled_ = true; }
     bool isCancelled() const { return isCancelled_; }
+    // Not at the work's next word, but now: what it waits for in other processes is to be killed.
+    void interrupt() { isCancelled_ = isInterrupted_ = true; }
+    bool isInterrupted() const { return isInterrupted_; }
     // A new part of the work begins. Throws WorkCancelled.
     void begin(std::string what, size_t total = 1);
     // Throws WorkCancelled.
@@ -33,7 +36,7 @@ class WorkWatch {
     Progress progress() const;
 
   private:
-    std::atomic<bool> isCancelled_ = false;
+    std::atomic<bool> isCancelled_ = false, isInterrupted_ = false;
     std::atomic<size_t> done_ = 0, total_ = 0;
     mutable std::mutex mutex_; // guards what_
     std::string what_;

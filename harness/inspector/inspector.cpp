@@ -88,8 +88,7 @@ Reply makeErrorReply(int status, std::string_view text)
     return {status, dump(Json{{"error", onOneLine(text)}})};
 }
 
-Inspector::Inspector(InspectorSetup setup)
-    : setup_(std::move(setup)), renderer_(setup_.live), queue_([this] { renderer_.interrupt(); })
+Inspector::Inspector(InspectorSetup setup) : setup_(std::move(setup)), renderer_(setup_.live)
 {
     for (Case& testCase : setup_.selected) {
         order_.push_back(testCase.name);

@@ -4,10 +4,7 @@
 
 namespace crossray {
 
-LatestQueue::LatestQueue(std::function<void()> interrupt)
-    : interrupt_(std::move(interrupt)), thread_([this] { serve(); })
-{
-}
+LatestQueue::LatestQueue() : thread_([this] { serve(); }) {}
 
 LatestQueue::~LatestQueue()
 {
@@ -51,38 +48,28 @@ WorkEnd LatestQueue::run(WorkKind kind, std::function<void(WorkWatch&)> work)
 // Whoever waits for the thread looks after what keeps it busy for nobody.
 void LatestQueue::interruptWhenDue(std::unique_lock<std::mutex>& lock)
 {
-    if (!running_ || !running_->end || running_->isInterrupted) return changed_.wait(lock);
+    if (!running_ || !running_->end || running_->watch.isInterrupted()) return changed_.wait(lock);
     const Clock::time_point due = running_->unwantedSince + kGrace;
-    if (Clock::now() < due) {
+    if (Clock::now() < due)
         changed_.wait_until(lock, due);
-        return;
-    }
-    running_->isInterrupted = true;
-    lock.unlock();
-    interrupt_();
-    lock.lock();
+    else
+        running_->watch.interrupt();
 }
 
 bool LatestQueue::cancel()
 {
-    bool hadWork = false, runs = false;
-    {
-        const std::lock_guard lock(mutex_);
-        for (std::shared_ptr<Ticket>& waiting : waiting_) {
-            if (!waiting) continue;
-            finish(*waiting, WorkEnd::kCancelled);
-            waiting.reset();
-            hadWork = true;
-        }
-        runs = running_ != nullptr;
-        if (runs) {
-            running_->watch.cancel();
-            running_->isInterrupted = true;
-            finish(*running_, WorkEnd::kCancelled);
-        }
+    const std::lock_guard lock(mutex_);
+    bool hadWork = false;
+    for (std::shared_ptr<Ticket>& waiting : waiting_) {
+        if (!waiting) continue;
+        finish(*waiting, WorkEnd::kCancelled);
+        waiting.reset();
+        hadWork = true;
     }
-    if (runs) interrupt_();
-    return hadWork || runs;
+    if (!running_) return hadWork;
+    running_->watch.interrupt();
+    finish(*running_, WorkEnd::kCancelled);
+    return true;
 }
 
 void LatestQueue::close()

@@ -27,12 +27,11 @@ enum class WorkEnd {
 class LatestQueue {
   public:
     using Clock = std::chrono::steady_clock;
-    // How long work that is not wanted any more may go on to its own end, before `interrupt` is called: a worker that
-    // is killed costs more to start again than most jobs take.
+    // How long work that is not wanted any more may go on to its own end, before its watch is interrupted: a worker
+    // that is killed costs more to start again than most jobs take.
     static constexpr std::chrono::milliseconds kGrace{300};
 
-    // `interrupt` makes the work that runs end early, from any thread: it is not asked otherwise than by its watch.
-    explicit LatestQueue(std::function<void()> interrupt);
+    LatestQueue();
     ~LatestQueue(); // cancels what waits and runs, and waits for it
 
     // Blocks until the queue's thread has done the work, or it is known that it is not wanted any more: then nobody
@@ -58,14 +57,12 @@ class LatestQueue {
         std::optional<WorkEnd> end{};
         std::exception_ptr failure{};
         Clock::time_point started{}, unwantedSince{};
-        bool isInterrupted = false;
     };
 
     void serve();
     void finish(Ticket& ticket, WorkEnd end);
     void interruptWhenDue(std::unique_lock<std::mutex>& lock);
 
-    std::function<void()> interrupt_;
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     std::array<std::shared_ptr<Ticket>, 2> waiting_; // by kind

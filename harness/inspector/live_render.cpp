@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <condition_variable>
 #include <csignal>
 #include <exception>
 #include <mutex>
@@ -36,24 +37,6 @@ double shaderTime(const StageTimes& times)
     return times.device >= 0 ? times.device : times.dispatch;
 }
 
-// The first failure of several threads, thrown where they have ended.
-class FirstFailure {
-  public:
-    void keep(std::exception_ptr failure)
-    {
-        const std::lock_guard lock(mutex_);
-        if (!failure_) failure_ = std::move(failure);
-    }
-    void rethrow() const
-    {
-        if (failure_) std::rethrow_exception(failure_);
-    }
-
-  private:
-    std::mutex mutex_;
-    std::exception_ptr failure_;
-};
-
 } // namespace
 
 // A backend is busy while a job of it runs.
@@ -80,7 +63,7 @@ LiveRenderer::LiveRenderer(const LiveSetup& setup)
 {
 }
 
-void LiveRenderer::interrupt()
+void LiveRenderer::killBusy()
 {
     const std::lock_guard lock(busyMutex_);
     for (const auto& [backend, count] : busy_) {
@@ -88,6 +71,39 @@ void LiveRenderer::interrupt()
         for (const int process : pool_.processIds(backend))
             ::kill(process, SIGKILL);
     }
+}
+
+// Of an interrupted watch the workers are killed until the jobs are over: the pool starts one anew that dies before it
+// has read its job.
+void LiveRenderer::runAll(size_t count, const WorkWatch& watch, const std::function<void(size_t)>& job)
+{
+    constexpr std::chrono::milliseconds kGlance{10};
+    std::mutex mutex;
+    std::condition_variable changed;
+    size_t open = count;
+    std::exception_ptr failure;
+    {
+        std::vector<std::jthread> threads;
+        for (size_t i = 0; i < count; ++i) {
+            threads.emplace_back([&, i] {
+                std::exception_ptr own;
+                try {
+                    job(i);
+                } catch (...) {
+                    own = std::current_exception();
+                }
+                const std::lock_guard lock(mutex);
+                if (!failure) failure = own;
+                --open;
+                changed.notify_all();
+            });
+        }
+        std::unique_lock lock(mutex);
+        while (!changed.wait_for(lock, kGlance, [&] { return open == 0; })) {
+            if (watch.isInterrupted()) killBusy();
+        }
+    }
+    if (failure) std::rethrow_exception(failure);
 }
 
 // A backend stays on its core, so that its worker is warm.
@@ -160,29 +176,20 @@ LiveRender LiveRenderer::render(const CaseTree& tree, std::span<const std::strin
     CaseFlight flight(testCase, std::move(prepared), options);
     std::vector<Answer> answers(asked.size());
     watch.begin(fmt::format("running on {}", fmt::join(asked, ", ")), asked.size());
-    {
-        const std::atomic<bool> isInterrupted{false};
-        std::atomic<size_t> done = 0;
-        FirstFailure failure;
-        {
-            std::vector<std::jthread> threads;
-            for (size_t i = 0; i < asked.size(); ++i) {
-                threads.emplace_back([&, i, core = coreOf(asked[i])] {
-                    try {
-                        const Busy busy(*this, asked[i]);
-                        answers[i] =
-                            fetchAnswer(testCase, flight.prepared(), asked[i], core, options, steps_, isInterrupted);
-                        watch.note(++done, asked.size());
-                    } catch (const ShaderError& error) { // found while it ran
-                        answers[i] = {makeErrorResult(asked[i], error.what()), {}, {}};
-                    } catch (...) {
-                        failure.keep(std::current_exception());
-                    }
-                });
-            }
+    const std::atomic<bool> isInterrupted{false};
+    std::atomic<size_t> done = 0;
+    std::vector<int> cores;
+    for (const std::string& backend : asked)
+        cores.push_back(coreOf(backend));
+    runAll(asked.size(), watch, [&](size_t i) {
+        try {
+            const Busy busy(*this, asked[i]);
+            answers[i] = fetchAnswer(testCase, flight.prepared(), asked[i], cores[i], options, steps_, isInterrupted);
+            watch.note(++done, asked.size());
+        } catch (const ShaderError& error) { // found while it ran
+            answers[i] = {makeErrorResult(asked[i], error.what()), {}, {}};
         }
-        failure.rethrow();
-    }
+    });
     watchPart.lap();
 
     watch.begin("expected values");
@@ -239,25 +246,21 @@ LiveTrace LiveRenderer::trace(const CaseTree& tree, glm::ivec2 pixel, std::span<
     const std::chrono::duration<double> timeout(tree.testCase.timeoutSeconds);
     std::vector<PixelTrace> traces(backends.size());
     std::vector<double> milliseconds(backends.size());
-    FirstFailure failure;
-    {
-        std::vector<std::jthread> threads;
-        for (size_t i = 0; i < backends.size(); ++i) {
-            threads.emplace_back([&, i, core = coreOf(backends[i])] {
-                try {
-                    Stopwatch own;
-                    const Busy busy(*this, backends[i]);
-                    const TraceWorkers workers{pool_, compiler_, setup_.shaders, core, timeout};
-                    traces[i] = tracePixel(*data, pixel, backends.subspan(i, 1), workers);
-                    milliseconds[i] = own.lap();
-                } catch (...) {
-                    failure.keep(std::current_exception());
-                }
-            });
-        }
+    std::vector<int> cores;
+    for (const std::string& backend : backends)
+        cores.push_back(coreOf(backend));
+    try {
+        runAll(backends.size(), watch, [&](size_t i) {
+            Stopwatch own;
+            const Busy busy(*this, backends[i]);
+            const TraceWorkers workers{pool_, compiler_, setup_.shaders, cores[i], timeout};
+            traces[i] = tracePixel(*data, pixel, backends.subspan(i, 1), workers);
+            milliseconds[i] = own.lap();
+        });
+    } catch (const EnvironmentError&) {
+        if (watch.isCancelled()) throw WorkCancelled(); // who was killed on purpose has not crashed
+        throw;
     }
-    watch.note(backends.size(), backends.size()); // who was killed on purpose has not crashed
-    failure.rethrow();
     live.trace = std::move(traces.front());
     for (size_t i = 0; i < backends.size(); ++i) {
         live.times.backends[backends[i]] = milliseconds[i];

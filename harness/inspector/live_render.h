@@ -9,6 +9,7 @@
 #include "harness/run/steps.h"
 
 #include <filesystem>
+#include <functional>
 #include <list>
 #include <map>
 #include <memory>
@@ -51,8 +52,6 @@ class LiveRenderer {
     // The same, but that a backend without an answer is an EnvironmentError.
     LiveTrace trace(const CaseTree& tree, glm::ivec2 pixel, std::span<const std::string> backends, WorkWatch& watch);
 
-    // From any thread: ends the workers that run something now. The next job starts new ones.
-    void interrupt();
     WorkerPool& pool() { return pool_; }
 
   private:
@@ -68,6 +67,9 @@ class LiveRenderer {
     std::shared_ptr<const CaseData> prepare(const CaseTree& tree);
     std::shared_ptr<const CaseData> prepareRecord(const CaseTree& tree);
     int coreOf(const std::string& backend);
+    // One job a backend, all at once. Throws what the first of them throws.
+    void runAll(size_t count, const WorkWatch& watch, const std::function<void(size_t)>& job);
+    void killBusy();
 
     LiveSetup setup_;
     WorkerPool pool_;
