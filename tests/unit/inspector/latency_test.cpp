@@ -16,7 +16,9 @@ namespace {
 using Json = nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
-constexpr double kMostTraceMs = 50, kMostRenderMs = 150; // on two cores that do nothing else
+constexpr double kMostTraceMs = 50, kMostRenderMs = 150;    // on two cores that do nothing else
+constexpr double kIdle = 1.1;                               // crowding up to which they count as such
+constexpr double kMostOverShader = 2.5, kMostBesideMs = 80; // of a render, whatever else goes on
 constexpr int kRounds = 12;
 
 double millisecondsSince(Clock::time_point start)
@@ -99,7 +101,9 @@ TEST_F(LatencyTest, aRenderOf256By256IsThereBeforeItIsMissed)
                best / shader, shader, parts.dump(), crowding);
     RecordProperty("render_ms", fmt::format("{:.1f}", best));
     RecordProperty("render_over_shader", fmt::format("{:.2f}", best / shader));
-    EXPECT_LE(best, kMostRenderMs * crowding) << parts;
+    EXPECT_LE(best, kMostOverShader * shader + kMostBesideMs * crowding) << parts;
+    if (crowding > kIdle) GTEST_SKIP() << "the processors are busy with other things; the bound is of idle ones";
+    EXPECT_LE(best, kMostRenderMs) << parts;
 }
 
 TEST_F(LatencyTest, aTraceFollowsTheMouse)
@@ -115,5 +119,6 @@ TEST_F(LatencyTest, aTraceFollowsTheMouse)
     }
     fmt::print("trace at 256x256: {:.0f} ms; crowding {:.1f}\n", best, crowding);
     RecordProperty("trace_ms", fmt::format("{:.1f}", best));
-    EXPECT_LE(best, kMostTraceMs * crowding);
+    if (crowding > kIdle) GTEST_SKIP() << "the processors are busy with other things; the bound is of idle ones";
+    EXPECT_LE(best, kMostTraceMs);
 }
