@@ -86,7 +86,11 @@ inline Case planarMirror()
 
 inline Expectation expectation(const std::string& output, ExpectationSource source)
 {
-    return {*findOutput(output), std::move(source), {}, {}, Where::kTraced, {}, {"case.toml", 7, 1}};
+    Expectation made;
+    made.output = *findOutput(output);
+    made.source = std::move(source);
+    made.position = {"case.toml", 7, 1};
+    return made;
 }
 
 inline Expectation analytic(const std::string& output, const std::string& function)
