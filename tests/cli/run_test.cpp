@@ -370,3 +370,44 @@ TEST_F(RunTest, refusesAnOutputFolderThatIsNotItsOwn)
     EXPECT_EQ(run("run --backend cpu64 -o photos").exitCode, 2);
     EXPECT_EQ(readFile("photos/planes/mine.jpg"), "mine");
 }
+
+TEST_F(RunTest, aBrokenShaderIsNotExcusedWhereItCouldHaveDecided)
+{
+    fs::copy(CROSSRAY_SOURCE_DIR "/shaders", folder_ / "shaders", fs::copy_options::recursive);
+    fs::copy(CROSSRAY_SOURCE_DIR "/cases/stability/undecidable_critical_angle.toml", folder_ / "ring.toml");
+    const std::string command = "run --no-report --shaders shaders --backend cpu64,lavapipe -o out/broken ring.toml";
+    EXPECT_EQ(run(command).exitCode, 0);
+    const auto excused = readRun("out/broken")["cases"][0];
+    EXPECT_EQ(excused["conditioning"]["outputs"][0]["undecidable"], 12);
+    // Total reflection from a few degrees before the critical angle on: also in the next ring, of eight pixels, which
+    // is not undecidable.
+    const std::string file = "shaders/crossray/refract/refraction.glsl";
+    std::string source = readFile(file);
+    const std::string right = "cosineSquared < 0.0";
+    source.replace(source.find(right), right.size(), "cosineSquared < 0.3");
+    writeFile(file, source);
+    const Outcome outcome = run(command);
+    EXPECT_EQ(outcome.exitCode, 1) << outcome.out;
+    for (const auto& backend : readRun("out/broken")["cases"][0]["backends"]) {
+        const auto& reason = backend["expectations"][0]["comparison"];
+        if (backend["backend"] != "lavapipe") continue;
+        EXPECT_EQ(reason["undecidable"], 12);
+        EXPECT_EQ(reason["failed"], 8) << reason; // what is excused of the other ring is excused
+    }
+}
+
+TEST_F(RunTest, conditioningIsWrittenWhereItIsAskedFor)
+{
+    writeCase("cases/a.toml", "a");
+    EXPECT_EQ(run("run --no-report --backend cpu64 cases/a.toml").exitCode, 0);
+    EXPECT_FALSE(readRun()["cases"][0].contains("conditioning"));
+    const Outcome outcome = run("run --no-report --conditioning --backend cpu64 cases/a.toml");
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("conditioning: 0 of 1 cases have pixels"), std::string::npos) << outcome.out;
+    const auto conditioning = readRun()["cases"][0]["conditioning"];
+    EXPECT_EQ(conditioning["bound"], 1024);
+    EXPECT_EQ(conditioning["outputs"][0]["undecidable"], 0);
+    EXPECT_TRUE(fs::exists(folder_ / "out/last" / conditioning["file"].get<std::string>())) << conditioning;
+    EXPECT_EQ(run("run --no-report --conditioning --planes none --backend cpu64 cases/a.toml").exitCode, 0);
+    EXPECT_EQ(readRun()["cases"][0]["conditioning"]["file"], "");
+}

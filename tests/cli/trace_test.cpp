@@ -123,3 +123,26 @@ TEST_F(TraceTest, aPixelThatTracesNothingSaysSo)
     EXPECT_NE(outcome.out.find("This pixel traces no ray"), std::string::npos) << outcome.out;
     EXPECT_EQ(outcome.out.find("step"), std::string::npos);
 }
+
+TEST_F(TraceTest, saysWhatIsUndecidableAndWhy)
+{
+    const std::string testCase = "ring.toml";
+    std::filesystem::copy(CROSSRAY_SOURCE_DIR "/cases/stability/undecidable_critical_angle.toml", folder_ / testCase);
+    const Outcome ring = run("trace " + testCase + " --pixel 8,4 --backend cpu64");
+    EXPECT_EQ(ring.exitCode, 0) << ring.err;
+    EXPECT_NE(ring.out.find("undecidable here: HitReason flips for an ulp of "), std::string::npos) << ring.out;
+    const Outcome inside = run("trace " + testCase + " --pixel 8,5 --backend cpu64");
+    EXPECT_EQ(inside.out.find("undecidable here"), std::string::npos) << inside.out;
+    EXPECT_NE(inside.out.find("ulp for an ulp"), std::string::npos) << inside.out;
+    const auto json = nlohmann::json::parse(run("trace " + testCase + " --pixel 8,4 --backend cpu64 --json").out);
+    const auto reason = json["conditioning"][1];
+    EXPECT_EQ(reason["output"], "HitReason");
+    EXPECT_EQ(reason["condition"], "Infinity");
+    EXPECT_EQ(reason["undecidable"], true);
+    const Outcome shown = run("show " + testCase + " --conditioning");
+    EXPECT_NE(shown.out.find("HitReason        12 of 256 px undecidable, 0 fragile"), std::string::npos) << shown.out;
+    const Outcome pixel = run("show " + testCase + " --conditioning --pixel 8,4");
+    EXPECT_NE(pixel.out.find("undecidable here: HitReason flips"), std::string::npos) << pixel.out;
+    EXPECT_EQ(run("show " + testCase + " --pixel 8,4").exitCode, 2);
+    EXPECT_EQ(run("show " + testCase + " --conditioning --pixel 16,0").exitCode, 2);
+}
