@@ -198,7 +198,7 @@ async function drawTraceOfPixel() {
   const step = Math.min(state().step, most - 1);
   document.body.classList.toggle('no-planes', !live && !shown.actual && !shown.expected);
   panes.setOverlay({ worst: shown.actual && worstPixel(), pixel: x >= 0 ? [x, y] : null, trace, step });
-  drawCommands(byId('commands'), { item, details: model.details, shown, index });
+  if (!live) drawCommands(byId('commands'), { item, details: model.details, shown, index });
   drawRecord(byId('record'), trace, step);
   drawTracePanel(byId('trace'), { item, shown, x, y, trace, step, index, update, added: takeTrace,
     live: live && { backends: index.backends.map((each) => each.name), chosen: live.traceBackends(shown), error: asked?.error ?? '' } });
