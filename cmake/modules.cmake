@@ -16,6 +16,16 @@ crossray_module(run USES pass backend/cpu backend/vulkan backend/gl
                 PACKAGES nlohmann_json::nlohmann_json pugixml::pugixml)
 target_compile_definitions(crossray_run PRIVATE CROSSRAY_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
                            CROSSRAY_VERSION="${PROJECT_VERSION}")
+# Which sources a verdict comes from: shards of one run must agree on it.
+file(GLOB_RECURSE verdict_sources CONFIGURE_DEPENDS harness/base/* harness/scene/* harness/compile/* harness/backend/* harness/judge/*
+     harness/case/* harness/expect/* harness/pass/* harness/run/* shaders/*)
+add_custom_command(
+  OUTPUT ${CMAKE_BINARY_DIR}/source_hash.cpp
+  COMMAND ${CMAKE_COMMAND} -D OUTPUT=${CMAKE_BINARY_DIR}/source_hash.cpp -D SOURCE=${CMAKE_SOURCE_DIR}
+          -P ${CMAKE_SOURCE_DIR}/cmake/source_hash.cmake
+  DEPENDS ${verdict_sources} ${CMAKE_SOURCE_DIR}/cmake/source_hash.cmake
+  VERBATIM)
+target_sources(crossray_run PRIVATE ${CMAKE_BINARY_DIR}/source_hash.cpp)
 crossray_module(bench USES run)
 crossray_module(inspect USES run PACKAGES nlohmann_json::nlohmann_json)
 # The pages of the report stand in harness/report/web and are strings in the program.

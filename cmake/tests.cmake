@@ -119,3 +119,11 @@ add_test(NAME consumer.theDebianPackageHoldsAToolThatRuns
          COMMAND ${CMAKE_COMMAND} -D BUILD=${CMAKE_BINARY_DIR} -D CPACK=${CMAKE_CPACK_COMMAND} -D SCRATCH=${CMAKE_BINARY_DIR}/deb
                  -D VERSION=${PROJECT_VERSION} -P ${CMAKE_SOURCE_DIR}/tests/consumer/check_deb.cmake)
 set_tests_properties(consumer.theDebianPackageHoldsAToolThatRuns PROPERTIES TIMEOUT 300)
+
+# An array of four on a Slurm cluster of two nodes, of which one dies. Skipped, with the reason, where Slurm is not there.
+if(TARGET crossray)
+  add_test(NAME scale.aSlurmArrayThatLosesANodeMergesToTheUnshardedRun
+           COMMAND ${CMAKE_SOURCE_DIR}/tests/scale/slurm_test.sh $<TARGET_FILE:crossray> ${CMAKE_SOURCE_DIR})
+  set_tests_properties(scale.aSlurmArrayThatLosesANodeMergesToTheUnshardedRun
+                       PROPERTIES TIMEOUT 400 SKIP_RETURN_CODE 77 ENVIRONMENT CROSSRAY_CACHE=${CMAKE_BINARY_DIR}/cli-test-cache)
+endif()

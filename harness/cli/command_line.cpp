@@ -25,7 +25,12 @@ void addSelection(CLI::App& verb, SelectionOptions& selection)
         ->expected(1)
         ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    verb.add_option("--shard", selection.shard, "Part I of N, from 1, by a stable hash of the name")->type_name("I/N");
+    verb.add_option(
+            "--shard", selection.shard,
+            "Part I of N, from 1, by a stable hash of the name; auto, or an engine's name: as its variables say")
+        ->type_name("I/N|auto[/N]");
+    verb.add_option("--timings", selection.timings, "With --shard: parts that take equally long, by the times of a run")
+        ->type_name("RUN");
     verb.add_flag("--last-failed", selection.lastFailed, "Only the cases that failed in the last run (OUT/run.json)");
 }
 
@@ -97,6 +102,9 @@ void addRun(CLI::App& app, CommandLine& line)
         ->type_name("DIR")
         ->take_last();
     verb.add_flag("--json", run.json, "Print run.json's summary to standard output, and all text to standard error");
+    verb.add_option("--attempt", run.attempt,
+                    "Of a shard: its results go to DIR/shard-I-of-N.NAME; default: a new name")
+        ->type_name("NAME");
     verb.add_option("--junit", run.junit, "Write JUnit XML")->type_name("FILE");
     verb.add_flag("--no-report", line.noReport, "Write no pages (OUT/report/index.html)");
     addChoice<std::string>(verb, "--github", line.github, {{"auto", "auto"}, {"on", "on"}, {"off", "off"}},
@@ -221,6 +229,25 @@ void addReport(CLI::App& app, CommandLine& line)
     report.callback([&line] { line.verb = [&line] { return reportRun(line.report); }; });
 }
 
+void addMerge(CLI::App& app, CommandLine& line)
+{
+    CLI::App& merge = *app.add_subcommand("merge", "Make one run of the shards that ran apart");
+    merge.add_option("runs", line.merge.runs, "Folders that hold shards, or the shards' own folders")
+        ->type_name("RUN")
+        ->required();
+    merge.add_option("-o,--output", line.merge.output, "Folder for the run; default: out/last")->type_name("DIR");
+    merge.add_option("--junit", line.merge.junit, "Write JUnit XML")->type_name("FILE");
+    merge.add_flag("--partial", line.merge.isPartial, "Merge what is there although shards are missing");
+    merge.add_flag("--no-report", line.noMergeReport, "Write no pages (DIR/report/index.html)");
+    merge.add_flag("-q,--quiet", line.merge.quiet, "The last line alone, and what was wrong");
+    merge.callback([&line] {
+        line.verb = [&line] {
+            line.merge.report = !line.noMergeReport;
+            return mergeRuns(line.global, line.merge);
+        };
+    });
+}
+
 void addTools(CLI::App& app, CommandLine& line)
 {
     CLI::App& compile = *app.add_subcommand("compile", "Compile a shader and print it in another language");
@@ -289,6 +316,7 @@ std::unique_ptr<CLI::App> makeApp(CommandLine& line)
     addRun(*app, line);
     addInspection(*app, line);
     addReport(*app, line);
+    addMerge(*app, line);
     addTools(*app, line);
     addBench(*app, line);
     addSweep(*app, line);

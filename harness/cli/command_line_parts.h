@@ -32,6 +32,8 @@ struct CommandLine {
     ReportVerbOptions report;
     std::string shell;
     bool noReport = false;
+    MergeVerbOptions merge;
+    bool noMergeReport = false;
     bool reviewList = false;
     std::string github = "auto";
     std::string workerBackend;

@@ -19,6 +19,15 @@ std::set<std::string> readLastFailures(const std::string& lastRun)
     return names;
 }
 
+// A run that takes a part of the cases says so, whatever else it is to leave unsaid.
+void printPart(const SelectedCases& selected)
+{
+    const ShardChoice& choice = *selected.shard;
+    fmt::print(stderr, "crossray: part {} of {}{}: {} of {} cases\n", choice.shard.index, choice.shard.count,
+               choice.source.empty() ? "" : fmt::format(" ({})", choice.source), selected.plan.ownCases,
+               selected.plan.cases);
+}
+
 } // namespace
 
 SelectedCases selectCases(const SelectionOptions& options, const std::string& caseRoot, const std::string& lastRun,
@@ -28,11 +37,19 @@ SelectedCases selectCases(const SelectionOptions& options, const std::string& ca
     selection.arguments = options.arguments;
     selection.tags = options.tags;
     if (!options.expression.empty()) selection.expression = KeyExpression::parse(options.expression);
-    if (!options.shard.empty()) selection.shard = Shard::parse(options.shard);
+    SelectedCases selected;
+    if (!options.shard.empty()) {
+        selected.shard = chooseShard(options.shard, readEnvironment);
+        selection.shard = selected.shard->shard;
+    }
+    if (!options.timings.empty()) {
+        if (!selection.shard) throw InputError("--timings parts the cases of a shard: allowed beside --shard alone");
+        selection.timings = readTimings(options.timings);
+    }
     if (options.lastFailed) selection.names = readLastFailures(lastRun);
 
     PlanResult made = makePlan(selection, caseRoot);
-    SelectedCases selected;
+    selected.plan = made.plan.common;
     for (const BrokenFile& broken : made.plan.broken) {
         selected.broken.push_back(broken.line);
         fmt::print(stderr, "{}\n", broken.line);
@@ -40,11 +57,12 @@ SelectedCases selectCases(const SelectionOptions& options, const std::string& ca
     for (const std::string& line : made.unmatched)
         fmt::print(stderr, "crossray: {}\n", line);
     selected.cases = std::move(made.plan.cases);
+    if (selected.shard) printPart(selected);
     if (!selected.broken.empty() && !keepGoing) {
         selected.exitCode = ExitCode::kUsage;
     } else if (!made.unmatched.empty()) {
         selected.exitCode = ExitCode::kNothingSelected;
-    } else if (selected.cases.empty()) {
+    } else if (selected.plan.cases == 0) { // a part may be empty
         if (selected.broken.empty()) fmt::print(stderr, "crossray: no case is selected\n");
         selected.exitCode = selected.broken.empty() ? ExitCode::kNothingSelected : ExitCode::kUsage;
     }

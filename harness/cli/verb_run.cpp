@@ -2,10 +2,12 @@
 #include "harness/cli/verbs.h"
 #include "harness/inspect/worst_traces.h"
 #include "harness/report/report.h"
+#include "harness/run/attempt.h"
 #include "harness/run/environment.h"
 #include "harness/run/junit.h"
 #include "harness/run/plane_files.h"
 #include "harness/run/run_json.h"
+#include "harness/run/run_plan.h"
 #include "harness/run/steps.h"
 #include "harness/run/verdict.h"
 
@@ -18,6 +20,7 @@
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
+#include <fstream>
 #include <future>
 #include <map>
 #include <random>
@@ -138,16 +141,76 @@ void writeResults(const RunResult& run, const RunOptions& options)
 }
 
 // The run counts, and not its pages: what goes wrong with them is said and changes no exit code.
-void writePages(const RunResult& run, const RunOptions& options)
+void writePages(const RunResult& run, const RunOptions& options, const fs::path& finalFolder)
 {
     if (!options.report) return;
     ReportOptions report;
-    report.runFolder = options.output;
+    report.runFolder = finalFolder.generic_string();
     try {
         writeReport(run, options.output, fs::path(options.output) / "report", report);
     } catch (const Error& error) {
         fmt::print(stderr, "crossray: no report: {}\n", error.what());
     }
+}
+
+ExecuteOptions makeExecuteOptions(const GlobalOptions& global, const RunOptions& options,
+                                  const std::vector<std::string>& backends, int cores, const PassedCases& passedBefore)
+{
+    ExecuteOptions execution;
+    execution.backends = backends;
+    execution.cores = cores;
+    execution.repeat = options.repeat;
+    execution.maxFailures = options.maxFailures;
+    execution.keepGoing = options.keepGoing;
+    execution.timeoutSeconds = options.timeoutSeconds;
+    execution.keepPlanes = options.planes;
+    execution.conditioning = options.conditioning;
+    execution.outputFolder = options.output;
+    if (options.changed) execution.passedBefore = passedBefore;
+    execution.today = formatToday();
+    execution.processStart = global.processStart;
+    return execution;
+}
+
+// Cases came in the order that suits the cores; people and diffs want one order.
+void sortByName(RunResult& run)
+{
+    std::sort(run.cases.begin(), run.cases.end(),
+              [](const CaseResult& a, const CaseResult& b) { return a.name < b.name; });
+    std::sort(run.unchanged.begin(), run.unchanged.end());
+}
+
+// Variables of an engine that runs this as one of several, who each take all cases unless told otherwise.
+void printIgnoredOffers()
+{
+    for (const ShardOffer& offer : findShardOffers(readEnvironment)) {
+        if (offer.count == 1) continue;
+        fmt::print(
+            stderr,
+            "crossray: {} names a part of several ({}), and this run takes all cases; --shard auto takes the part\n",
+            offer.engine, offer.variables);
+    }
+}
+
+// A shard's results go to the folder of its attempt.
+void startShard(RunOptions& options, RunResult& run, const ShardChoice& choice)
+{
+    run.shard = choice.shard.format();
+    run.attempt = options.attempt.empty() ? makeAttemptName() : options.attempt;
+    options.output = chooseAttemptFolder(options.output, choice.shard, run.attempt).string();
+    if (!choice.statusFile.empty() && !std::ofstream(choice.statusFile, std::ios::app)) {
+        throw EnvironmentError(fmt::format("{}: the engine's file about shards cannot be written", choice.statusFile));
+    }
+}
+
+// Its folder takes its final name once all of it is there. Returns the folder to tell people.
+std::string finishShard(const RunResult& run, const RunOptions& options)
+{
+    if (run.shard.empty()) return options.output;
+    const std::string reason = whyNotWhole(run);
+    if (reason.empty()) return finishAttemptFolder(options.output).string();
+    fmt::print(stderr, "crossray: the shard is not whole and keeps its folder {}: {}\n", options.output, reason);
+    return options.output;
 }
 
 RunResult describeRun(const GlobalOptions& global, const RunOptions& options, int cores)
@@ -160,15 +223,15 @@ RunResult describeRun(const GlobalOptions& global, const RunOptions& options, in
     run.cores = cores;
     run.repeat = options.repeat;
     run.seed = options.seed;
-    run.shard = options.selection.shard;
     run.compilers = ShaderCompiler::versions();
     return run;
 }
 
 } // namespace
 
-int runCases(const GlobalOptions& global, const RunOptions& options)
+int runCases(const GlobalOptions& global, const RunOptions& given)
 {
+    RunOptions options = given;
     const Folders folders = findFolders(global.shaders, global.cases, global.cache);
     if (std::error_code failure;
         std::filesystem::exists(options.output, failure) && !std::filesystem::is_directory(options.output, failure)) {
@@ -186,15 +249,20 @@ int runCases(const GlobalOptions& global, const RunOptions& options)
             fmt::print(stderr, "crossray: {}\n", note);
     }
     const PassedCases passedBefore = readPassedCases(options.output);
+    const int cores = options.cores > 0 ? options.cores : countAvailableCores();
+    RunResult run = describeRun(global, options, cores);
+    if (selected.shard) {
+        startShard(options, run, *selected.shard);
+    } else if (!options.quiet) {
+        printIgnoredOffers();
+    }
     startRunFolder(options.output);
     catchInterrupts();
     // git takes some milliseconds of its own; nobody waits for it before the end.
     std::future<Commit> commit = std::async(std::launch::async, [&] { return findCommit(folders.shaders); });
-
-    const int cores = options.cores > 0 ? options.cores : countAvailableCores();
+    std::future<std::string> shaders = std::async(std::launch::async, [&] { return hashFolder(folders.shaders); });
     FILE* const text = options.json ? stderr : stdout; // JSON stands alone on standard output
     const Style style = Style::choose(global.color, fileno(text));
-    RunResult run = describeRun(global, options, cores);
     run.brokenFiles = selected.broken;
     Progress progress({chooseProgress(options.progress), options.quiet, options.verbose, text, stderr, style,
                        selected.cases.size(), selected.cases.size() * backends.names.size(), folders.cases});
@@ -205,19 +273,7 @@ int runCases(const GlobalOptions& global, const RunOptions& options)
         workers.cores = cores;
         WorkerPool pool(workers);
         ShaderCompiler compiler(folders.cache / "spirv");
-        ExecuteOptions execution;
-        execution.backends = backends.names;
-        execution.cores = cores;
-        execution.repeat = options.repeat;
-        execution.maxFailures = options.maxFailures;
-        execution.keepGoing = options.keepGoing;
-        execution.timeoutSeconds = options.timeoutSeconds;
-        execution.keepPlanes = options.planes;
-        execution.conditioning = options.conditioning;
-        execution.outputFolder = options.output;
-        if (options.changed) execution.passedBefore = passedBefore;
-        execution.today = formatToday();
-        execution.processStart = global.processStart;
+        const ExecuteOptions execution = makeExecuteOptions(global, options, backends.names, cores, passedBefore);
         execute(selected.cases, execution, makeSteps(pool, compiler, folders.shaders, backends.names), progress,
                 interrupted, run);
         if (options.planes != KeepPlanes::kNone && !run.interrupted) {
@@ -227,20 +283,25 @@ int runCases(const GlobalOptions& global, const RunOptions& options)
                             interrupted);
         }
         run.workersPeakBytes = pool.peakMemory();
+        run.plan = selected.plan;
+        run.plan.options = describeOptions(execution, options.validation);
     }
     progress.finish();
     run.toolPeakBytes = peakMemoryOfTool();
     const Commit found = commit.get();
     run.commit = found.hash;
     run.modified = found.modified;
-    // Cases came in the order that suits the cores; people and diffs want one order.
-    std::sort(run.cases.begin(), run.cases.end(),
-              [](const CaseResult& a, const CaseResult& b) { return a.name < b.name; });
-    std::sort(run.unchanged.begin(), run.unchanged.end());
+    run.plan.shaders = shaders.get();
+    run.plan.harness = describeHarness();
+    run.plan.hash = hashPlan(run.plan);
+    sortByName(run);
     run.exitCode = static_cast<int>(computeExitCode(run));
     writeResults(run, options);
-    writePages(run, options);
-    if (!options.validation) writePassedCases(options.output, mergePassedCases(passedBefore, run));
+    const bool isWholeShard = selected.shard && whyNotWhole(run).empty();
+    writePages(run, options, isWholeShard ? fs::path(options.output).replace_extension() : fs::path(options.output));
+    // Of a shard the merged run's folder has it.
+    if (!options.validation && !selected.shard) writePassedCases(options.output, mergePassedCases(passedBefore, run));
+    options.output = finishShard(run, options);
     if (options.github) fmt::print(text, "{}", formatGithubAnnotations(run));
     printSummary(run, options, style, text);
     if (options.json) fmt::print("{}", formatSummaryJson(run));

@@ -5,6 +5,7 @@
 #include "harness/cli/progress.h"
 #include "harness/cli/terminal.h"
 #include "harness/run/execute.h"
+#include "harness/run/shard.h"
 
 #include <chrono>
 #include <cstdint>
@@ -25,8 +26,9 @@ struct SelectionOptions {
     std::vector<std::string> arguments;
     std::string expression;
     std::vector<std::string> tags;
-    std::string shard;
+    std::string shard;   // "2/4", "auto", ...; empty: all
     bool lastFailed = false;
+    std::string timings = {}; // a run by whose times the shards are balanced; empty: none
 };
 
 struct RunOptions {
@@ -43,6 +45,7 @@ struct RunOptions {
     KeepPlanes planes = KeepPlanes::kFailed;
     bool conditioning = false; // measured and written of every case
     std::string output = "out/last";
+    std::string attempt; // of a shard; empty: a name of its own
     std::string junit;
     bool json = false;
     bool github = false;
@@ -115,6 +118,16 @@ struct ReportVerbOptions {
 };
 int reportRun(const ReportVerbOptions& options);
 
+struct MergeVerbOptions {
+    std::vector<std::string> runs; // folders with shards, shards' folders, runs
+    std::string output = "out/last";
+    std::string junit;
+    bool isPartial = false; // without the shards that are missing
+    bool report = true;
+    bool quiet = false;
+};
+int mergeRuns(const GlobalOptions& global, const MergeVerbOptions& options);
+
 int diagnose(const GlobalOptions& global);
 
 struct ThroughputVerbOptions {
@@ -176,6 +189,8 @@ struct SelectedCases {
     std::vector<Case> cases;
     std::vector<std::string> broken; // one line each
     std::optional<ExitCode> exitCode;
+    std::optional<ShardChoice> shard; // of which these cases are
+    RunPlan plan;                     // as far as the selection says
 };
 SelectedCases selectCases(const SelectionOptions& options, const std::string& caseRoot, const std::string& lastRun,
                           bool keepGoing);

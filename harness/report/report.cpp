@@ -50,6 +50,7 @@ class Report {
         : run_(run), options_(options), readPlanes_(readPlanes), writeFile_(writeFile)
     {
         index_.cases.resize(run.cases.size());
+        index_.leftOut = options.leftOut;
     }
 
     ReportSummary make()

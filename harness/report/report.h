@@ -36,6 +36,7 @@ struct ReportOptions {
     bool isSingle = false;              // one file that holds all its data
     size_t maxBytes = kMaxSingleBytes;  // of that file; what does not fit is left out, and the page says what
     std::string runFolder = "out/last"; // as the commands on the page name it
+    std::vector<std::string> leftOut;   // what the run that is given lacks already, one line each
     std::vector<ReportInput> traces;    // of `crossray trace --json`, shown with the case and pixel that they are of
     std::vector<ReportCubemap> cubemaps;
     std::vector<ReportInput> benches; // JSON of `bench`, `bench tracers` and `sweep`, as charts

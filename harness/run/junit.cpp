@@ -1,10 +1,11 @@
 #include "harness/run/junit.h"
 
+#include "harness/base/text.h"
+
 #include <fmt/format.h>
 #include <pugixml.hpp>
 
 #include <algorithm>
-#include <set>
 #include <sstream>
 
 namespace crossray {
@@ -58,39 +59,42 @@ void appendResult(pugi::xml_node suite, const CaseResult& testCase, const Backen
 
 } // namespace
 
+void JunitWriter::add(const CaseResult& testCase)
+{
+    constexpr unsigned kDepth = 2; // below suite and root
+    for (const BackendResult& result : testCase.backends) {
+        Suite& suite = suites_[result.backend];
+        pugi::xml_document document;
+        appendResult(document, testCase, result);
+        const pugi::xml_node test = document.first_child();
+        std::ostringstream text;
+        test.print(text, " ", pugi::format_default, pugi::encoding_utf8, kDepth);
+        suite.tests += text.str();
+        ++suite.count;
+        if (tallyOf(result.verdict) == Tally::kSkipped) ++suite.skipped;
+        if (test.child("failure")) ++suite.failures;
+        if (test.child("error")) ++suite.errors;
+    }
+}
+
+std::string JunitWriter::finish() const
+{
+    std::string text = "<?xml version=\"1.0\"?>\n<testsuites name=\"crossray\">\n";
+    for (const auto& [backend, suite] : suites_) {
+        text += fmt::format(" <testsuite name=\"{}\" timestamp=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" "
+                            "skipped=\"{}\">\n{} </testsuite>\n",
+                            escapeMarkup(cleanForXml(backend)), escapeMarkup(started_), suite.count, suite.failures,
+                            suite.errors, suite.skipped, suite.tests);
+    }
+    return text + "</testsuites>\n";
+}
+
 std::string formatJunit(const RunResult& run)
 {
-    pugi::xml_document document;
-    pugi::xml_node root = document.append_child("testsuites");
-    setText(root, "name", "crossray");
-    std::set<std::string> backends;
-    for (const CaseResult& testCase : run.cases) {
-        for (const BackendResult& result : testCase.backends)
-            backends.insert(result.backend);
-    }
-    for (const std::string& backend : backends) {
-        pugi::xml_node suite = root.append_child("testsuite");
-        setText(suite, "name", backend);
-        setText(suite, "timestamp", run.started);
-        int tests = 0, failures = 0, errors = 0, skipped = 0;
-        for (const CaseResult& testCase : run.cases) {
-            for (const BackendResult& result : testCase.backends) {
-                if (result.backend != backend) continue;
-                appendResult(suite, testCase, result);
-                ++tests;
-                if (tallyOf(result.verdict) == Tally::kSkipped) ++skipped;
-                if (suite.last_child().child("failure")) ++failures;
-                if (suite.last_child().child("error")) ++errors;
-            }
-        }
-        suite.append_attribute("tests") = tests;
-        suite.append_attribute("failures") = failures;
-        suite.append_attribute("errors") = errors;
-        suite.append_attribute("skipped") = skipped;
-    }
-    std::ostringstream text;
-    document.save(text, " ");
-    return text.str();
+    JunitWriter writer(run.started);
+    for (const CaseResult& testCase : run.cases)
+        writer.add(testCase);
+    return writer.finish();
 }
 
 namespace {

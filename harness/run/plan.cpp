@@ -1,6 +1,7 @@
 #include "harness/run/plan.h"
 
 #include "harness/expect/expect.h"
+#include "harness/run/run_plan.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -213,7 +214,6 @@ class Planner {
     {
         if (selection_.names && !selection_.names->contains(testCase.name)) return false;
         if (selection_.expression && !selection_.expression->matches(testCase)) return false;
-        if (selection_.shard && !selection_.shard->contains(testCase.name)) return false;
         if (selection_.tags.empty()) return true;
         return std::any_of(selection_.tags.begin(), selection_.tags.end(), [&](const std::string& tag) {
             return std::find(testCase.tags.begin(), testCase.tags.end(), tag) != testCase.tags.end();
@@ -229,9 +229,39 @@ class Planner {
 
 } // namespace
 
+namespace {
+
+// Leaves the shard's part of the cases. All shards see the same cases, and so find the same parts.
+void takePart(Plan& plan, const Shard& shard, const std::optional<Timings>& timings)
+{
+    std::vector<std::string> names;
+    for (const Case& testCase : plan.cases)
+        names.push_back(testCase.name);
+    std::vector<int> parts;
+    if (timings) {
+        parts = findPartsByTime(names, *timings, shard.count);
+    } else {
+        for (const std::string& name : names)
+            parts.push_back(findPartByName(name, shard.count));
+    }
+    plan.common.partition = describePartition(names, parts, shard.count, timings.has_value());
+    std::vector<Case> own;
+    for (size_t i = 0; i < parts.size(); ++i) {
+        if (parts[i] == shard.index) own.push_back(std::move(plan.cases[i]));
+    }
+    plan.cases = std::move(own);
+    plan.common.ownCases = plan.cases.size();
+}
+
+} // namespace
+
 PlanResult makePlan(const Selection& selection, const fs::path& caseRoot)
 {
-    return Planner(selection, caseRoot).make();
+    PlanResult result = Planner(selection, caseRoot).make();
+    result.plan.common = describeSelection(result.plan.cases);
+    result.plan.common.partition = "whole";
+    if (selection.shard) takePart(result.plan, *selection.shard, selection.timings);
+    return result;
 }
 
 } // namespace crossray

@@ -3,6 +3,7 @@
 
 #include "harness/case/case.h"
 #include "harness/run/selection.h"
+#include "harness/run/shard.h"
 
 #include <filesystem>
 #include <optional>
@@ -16,8 +17,9 @@ struct Selection {
     std::vector<std::string>
         arguments; // paths of files or folders, names, globs; empty: everything below the case root
     std::optional<KeyExpression> expression;
-    std::vector<std::string> tags; // a case with any of them
-    std::optional<Shard> shard;
+    std::vector<std::string> tags;              // a case with any of them
+    std::optional<Shard> shard;                 // a part of what all the others select
+    std::optional<Timings> timings;             // parts take equally long by these, instead of by name
     std::optional<std::set<std::string>> names; // only these: the failures of the last run
 };
 
@@ -28,7 +30,8 @@ struct BrokenFile {
 };
 
 struct Plan {
-    std::vector<Case> cases;
+    std::vector<Case> cases; // of the shard
+    RunPlan common;          // what the shards have in common, as far as the selection says
     std::vector<BrokenFile> broken;
 };
 

@@ -58,25 +58,30 @@ Tally tallyOf(Verdict verdict)
     return kVerdicts[static_cast<size_t>(verdict)].tally;
 }
 
-RunCounts countVerdicts(const RunResult& run)
+void addToCounts(RunCounts& counts, const CaseResult& testCase)
 {
-    RunCounts counts;
-    for (const CaseResult& testCase : run.cases) {
-        for (const BackendResult& result : testCase.backends) {
-            ++counts.byVerdict[result.verdict];
-            switch (tallyOf(result.verdict)) {
-            case Tally::kPassed:
-                ++counts.passed;
-                break;
-            case Tally::kFailed:
-                ++counts.failed;
-                break;
-            case Tally::kSkipped:
-                ++counts.skipped;
-                break;
-            }
+    for (const BackendResult& result : testCase.backends) {
+        ++counts.byVerdict[result.verdict];
+        switch (tallyOf(result.verdict)) {
+        case Tally::kPassed:
+            ++counts.passed;
+            break;
+        case Tally::kFailed:
+            ++counts.failed;
+            break;
+        case Tally::kSkipped:
+            ++counts.skipped;
+            break;
         }
     }
+}
+
+RunCounts countVerdicts(const RunResult& run)
+{
+    if (run.countsOfAll) return *run.countsOfAll;
+    RunCounts counts;
+    for (const CaseResult& testCase : run.cases)
+        addToCounts(counts, testCase);
     return counts;
 }
 
@@ -113,6 +118,7 @@ ExitCode computeExitCode(const RunResult& run)
                                          [](const auto& item) { return !item.second.environmentError.empty(); });
     if (lacksDevice) return ExitCode::kEnvironment;
     if (!run.brokenFiles.empty()) return ExitCode::kUsage;
+    if (!run.missingParts.empty()) return ExitCode::kFailed;
     return countVerdicts(run).failed > 0 ? ExitCode::kFailed : ExitCode::kAsExpected;
 }
 

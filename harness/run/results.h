@@ -118,6 +118,29 @@ struct RunCounts {
     int passed = 0, failed = 0, skipped = 0;
 };
 
+// What the parts of a run must have in common to be merged (run_plan.h makes and compares them).
+struct RunPlan {
+    std::string hash;      // over all below but `partition` and `ownCases`; empty: not known
+    uint64_t cases = 0;    // selected, in all parts together
+    uint64_t ownCases = 0; // of these in this run
+    std::string names;     // hash over the names of all
+    std::string contents;  // hash over their files
+    std::string partition; // how they were parted: "4 parts by name"; "whole"
+    std::string shaders;   // hash over the shader folder
+    std::string harness;   // version, sources and compilers
+    std::string options;   // what can change a verdict
+};
+
+// A part that a merged run holds.
+struct MergedPart {
+    std::string shard;   // "2/4"
+    std::string attempt; // that was taken
+    std::string started; // UTC
+    double seconds = 0;
+    uint64_t cases = 0;
+    std::map<std::string, std::string> devices; // by backend: device, driver, processor
+};
+
 struct RunResult {
     std::string version;   // of crossray
     std::string commit;    // "" when unknown
@@ -132,7 +155,11 @@ struct RunResult {
     int cores = 0;
     int repeat = 1;
     std::optional<uint64_t> seed;
-    std::string shard;                            // "2/3" or ""
+    std::string shard;   // "2/3" or ""
+    std::string attempt; // which run of this shard; "" for one that has none
+    RunPlan plan;
+    std::vector<MergedPart> parts;                // of a merged run
+    std::vector<std::string> missingParts;        // "3/4": of a run that was merged without them
     std::map<std::string, std::string> compilers; // "glslang" -> version, ...
     uint64_t toolPeakBytes = 0;                   // resident memory
     uint64_t workersPeakBytes = 0;                // summed over the workers
@@ -140,10 +167,12 @@ struct RunResult {
     std::vector<std::string> brokenFiles; // one line each: file:line:column: what is wrong
     std::vector<std::string> unchanged;   // --changed: cases that have passed with these inputs, by name
     std::vector<CaseResult> cases;
+    std::optional<RunCounts> countsOfAll; // where `cases` holds only some of the run's
     int exitCode = 0;
 };
 
 RunCounts countVerdicts(const RunResult& run);
+void addToCounts(RunCounts& counts, const CaseResult& testCase);
 // What a person looks at first: the failed expectation with the largest share of failed pixels; null without one.
 const ExpectationResult* findWorstExpectation(const CaseResult& testCase, const BackendResult& result);
 // "12 passed, 0 failed, 1 skipped": the last line of every run.

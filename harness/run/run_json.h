@@ -3,8 +3,10 @@
 #pragma once
 
 #include "harness/run/results.h"
+#include "harness/run/run_slices.h"
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,15 +17,41 @@ inline constexpr std::string_view kRunSchema = "crossray-run/1";
 
 // Numbers that JSON does not have are the strings "NaN", "Infinity" and "-Infinity".
 std::string formatRunJson(const RunResult& run);
+// The same in pieces, for a run whose cases are not all at hand: between the two stand the cases, each
+// indentCaseJson(text), with commas between them and "\n " after the last. The counts in it are countVerdicts(run)'s.
+struct RunJsonFrame {
+    std::string before, after;
+};
+RunJsonFrame formatRunJsonFrame(const RunResult& run);
+std::string indentCaseJson(std::string_view json);
 // One of its cases, on one line.
 std::string formatCaseJson(const CaseResult& testCase);
 // All of it but the cases, on one line.
 std::string formatHeadJson(const RunResult& run);
 // Throws InputError with `name` for text that is no run.json of this schema.
 RunResult parseRunJson(std::string_view text, const std::string& name);
+CaseResult parseCaseJson(std::string_view text, const std::string& name);
 // A run.json, or the folder that holds one.
 RunResult readRun(const std::filesystem::path& path);
 std::filesystem::path findRunJson(const std::filesystem::path& path);
+
+// A run.json of any size: its head, and its cases one at a time.
+class RunFile {
+  public:
+    // The run's folder or its run.json. Throws InputError.
+    explicit RunFile(const std::filesystem::path& path);
+    const std::string& name() const { return name_; }
+    const RunResult& head() const { return head_; } // without cases
+    std::span<const std::string_view> cases() const { return cases_; }
+    CaseResult parse(std::string_view testCase) const { return parseCaseJson(testCase, name_); }
+    void release() const { file_.release(); } // what was read may leave the memory
+
+  private:
+    std::string name_;
+    MappedFile file_;
+    RunResult head_;
+    std::vector<std::string_view> cases_;
+};
 
 // Every field that run.json can have, as "cases[].backends[].verdict", for the test of the document.
 std::vector<std::string> listRunJsonFields();

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 
 namespace crossray {
 
@@ -152,39 +151,6 @@ KeyExpression KeyExpression::parse(std::string_view text)
 bool KeyExpression::matches(const Case& testCase) const
 {
     return evaluate(*root_, testCase);
-}
-
-Shard Shard::parse(std::string_view text)
-{
-    Shard shard;
-    const char* const end = text.data() + text.size();
-    const auto [slash, indexError] = std::from_chars(text.data(), end, shard.index);
-    bool valid = indexError == std::errc{} && slash != end && *slash == '/';
-    if (valid) {
-        const auto [rest, countError] = std::from_chars(slash + 1, end, shard.count);
-        valid = countError == std::errc{} && rest == end && shard.index >= 1 && shard.index <= shard.count;
-    }
-    if (!valid) throw InputError(fmt::format("--shard \"{}\": allowed is I/N with 1 <= I <= N", text));
-    return shard;
-}
-
-uint64_t computeStableHash(std::string_view text)
-{
-    uint64_t hash = 0xcbf29ce484222325u;
-    for (const char character : text) {
-        hash ^= static_cast<unsigned char>(character);
-        hash *= 0x100000001b3u;
-    }
-    // FNV's low bits follow the last characters; names that differ only there must still spread over the shards.
-    hash ^= hash >> 33;
-    hash *= 0xff51afd7ed558ccdu;
-    hash ^= hash >> 33;
-    return hash;
-}
-
-bool Shard::contains(std::string_view caseName) const
-{
-    return computeStableHash(caseName) % static_cast<uint64_t>(count) == static_cast<uint64_t>(index - 1);
 }
 
 } // namespace crossray

@@ -3,9 +3,7 @@
 
 #include "harness/case/case.h"
 
-#include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,17 +28,5 @@ class KeyExpression {
     std::shared_ptr<const Node>
         root_; // shared: expressions are copied with the options that hold them, and never change
 };
-
-// Part `index` of `count`, from 1. Which part a case falls into depends on its name alone, so that parts computed on
-// different machines fit together.
-struct Shard {
-    int index = 1;
-    int count = 1;
-    static Shard parse(std::string_view text); // "2/3"; throws InputError
-    bool contains(std::string_view caseName) const;
-};
-
-// FNV-1a, 64 bit, with a final mix: the same on every machine and in every version.
-uint64_t computeStableHash(std::string_view text);
 
 } // namespace crossray

@@ -44,12 +44,14 @@ void CliTest::TearDown()
     fs::remove_all(folder_);
 }
 
-int CliTest::start(const std::string& arguments) const
+int CliTest::start(const std::string& arguments, const std::string& variables) const
 {
     const std::string command = fmt::format(
-        "cd '{}' && CROSSRAY_CASES=cases CROSSRAY_CACHE='{}' GITHUB_ACTIONS= exec '{}' {} >'{}/.stdout' 2>'{}/.stderr'",
-        folder_.string(), fs::absolute("cli-test-cache").string(), fs::absolute("crossray").string(), arguments,
-        folder_.string(), folder_.string());
+        "cd '{}' && unset CI_NODE_INDEX CI_NODE_TOTAL TEST_TOTAL_SHARDS GTEST_TOTAL_SHARDS SLURM_ARRAY_TASK_ID "
+        "JOB_COMPLETION_INDEX; export CROSSRAY_CASES=cases CROSSRAY_CACHE='{}' GITHUB_ACTIONS= {}; "
+        "exec '{}' {} >'{}/.stdout' 2>'{}/.stderr'",
+        folder_.string(), fs::absolute("cli-test-cache").string(), variables, fs::absolute("crossray").string(),
+        arguments, folder_.string(), folder_.string());
     const pid_t process = fork();
     if (process == 0) {
         execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
@@ -65,9 +67,9 @@ Outcome CliTest::finish(int process) const
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readFile(".stdout"), readFile(".stderr")};
 }
 
-Outcome CliTest::run(const std::string& arguments) const
+Outcome CliTest::run(const std::string& arguments, const std::string& variables) const
 {
-    return finish(start(arguments));
+    return finish(start(arguments, variables));
 }
 
 void CliTest::writeFile(const std::string& name, std::string_view content) const

@@ -19,8 +19,9 @@ class CliTest : public testing::Test {
     void SetUp() override;
     void TearDown() override;
 
-    // `arguments` are words for a shell, in which the test's folder is the current one.
-    Outcome run(const std::string& arguments) const;
+    // `arguments` are words for a shell, in which the test's folder is the current one; `variables` stand before them.
+    // Those by which engines name parts of a run are not set otherwise.
+    Outcome run(const std::string& arguments, const std::string& variables = "") const;
     // Starts it, waits until `file` has appeared, calls `action` with its process id and waits for the end.
     template <typename Action>
     Outcome runWhile(const std::string& arguments, const Action& action) const
@@ -44,7 +45,7 @@ class CliTest : public testing::Test {
     std::filesystem::path folder_;
 
   private:
-    int start(const std::string& arguments) const;
+    int start(const std::string& arguments, const std::string& variables = "") const;
     Outcome finish(int process) const;
 };
 

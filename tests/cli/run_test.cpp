@@ -163,22 +163,6 @@ TEST_F(RunTest, selectsByPathNameTagAndExpression)
     }
 }
 
-TEST_F(RunTest, shardsPartitionTheWhole)
-{
-    for (int i = 0; i < 20; ++i)
-        writeCase(fmt::format("cases/{}.toml", i), fmt::format("case{}", i));
-    std::vector<std::string> names;
-    for (int index = 1; index <= 3; ++index) {
-        run(fmt::format("run --shard {}/3 --backend cpu64 -q -o shard{}", index, index));
-        const auto json = readRun(fmt::format("shard{}", index));
-        for (const auto& testCase : json["cases"])
-            names.push_back(testCase["name"]);
-    }
-    std::sort(names.begin(), names.end());
-    EXPECT_EQ(names.size(), 20u);
-    EXPECT_EQ(std::unique(names.begin(), names.end()), names.end());
-}
-
 TEST_F(RunTest, aBrokenCaseFileIsOneLineAndStopsTheRunUnlessItShallKeepGoing)
 {
     writeCase("cases/a.toml", "a");

@@ -1,7 +1,6 @@
 #include "harness/run/selection.h"
 
 #include <gtest/gtest.h>
-#include <rapidcheck/gtest.h>
 
 using namespace crossray;
 
@@ -66,39 +65,4 @@ TEST(KeyExpression, saysWhereItBreaksOff)
         EXPECT_NE(std::string(error.what()).find("\"exact\" comes unexpected at column 5"), std::string::npos)
             << error.what();
     }
-}
-
-TEST(Shard, acceptsOnlyPartsThatExist)
-{
-    EXPECT_EQ(Shard::parse("2/3").index, 2);
-    EXPECT_EQ(Shard::parse("2/3").count, 3);
-    for (const char* broken : {"0/3", "4/3", "1", "1/", "/3", "1/3x", "-1/3", "a/b", ""})
-        EXPECT_THROW(Shard::parse(broken), InputError) << broken;
-}
-
-// The hash is a promise: results of shards that were run by different versions are merged.
-TEST(Shard, hashNeverChanges)
-{
-    EXPECT_EQ(computeStableHash("refraction/sphere"), 167449756777745165u);
-    EXPECT_NE(computeStableHash("a"), computeStableHash("b"));
-}
-
-RC_GTEST_PROP(Shard, partitionTheWhole, (std::vector<std::string> names))
-{
-    const int count = *rc::gen::inRange(1, 9);
-    for (const std::string& name : names) {
-        int holders = 0;
-        for (int index = 1; index <= count; ++index)
-            holders += Shard{index, count}.contains(name) ? 1 : 0;
-        RC_ASSERT(holders == 1);
-    }
-}
-
-TEST(Shard, partsAreOfSimilarSize)
-{
-    int inFirst = 0;
-    for (int i = 0; i < 1000; ++i)
-        inFirst += Shard{1, 4}.contains("sweep/case[ior=1." + std::to_string(i) + "]") ? 1 : 0;
-    EXPECT_GT(inFirst, 200);
-    EXPECT_LT(inFirst, 300);
 }

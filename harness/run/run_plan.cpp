@@ -1,0 +1,156 @@
+#include "harness/run/run_plan.h"
+
+#include "harness/base/hash.h"
+#include "harness/base/text.h"
+#include "harness/compile/compile.h"
+#include "harness/run/environment.h"
+#include "harness/run/source_hash.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+
+namespace crossray {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// The presets that the cases of a folder see.
+std::string readPresets(const fs::path& folder)
+{
+    for (fs::path at = fs::weakly_canonical(folder);; at = at.parent_path()) {
+        if (const auto text = readText(at / "presets.toml")) return *text;
+        if (!at.has_relative_path()) return {};
+    }
+}
+
+// Reads each file once, however many sub-cases it has.
+class FileHashes {
+  public:
+    const Hash128& of(const fs::path& file)
+    {
+        const auto [place, isNew] = files_.try_emplace(file);
+        if (isNew) {
+            const fs::path folder = file.parent_path();
+            const auto [presets, isNewFolder] = folders_.try_emplace(folder);
+            if (isNewFolder) presets->second = hashBytes(readPresets(folder.empty() ? "." : folder));
+            place->second = Hasher().addString(readText(file).value_or("")).addHash(presets->second).finish();
+        }
+        return place->second;
+    }
+
+  private:
+    std::map<fs::path, Hash128> files_, folders_;
+};
+
+} // namespace
+
+std::string hashNames(std::vector<std::string> names)
+{
+    std::sort(names.begin(), names.end());
+    Hasher hasher;
+    for (const std::string& name : names)
+        hasher.addString(name);
+    return hasher.finish().hex();
+}
+
+RunPlan describeSelection(std::span<const Case> selected)
+{
+    std::map<std::string, const Case*> byName;
+    for (const Case& testCase : selected)
+        byName[testCase.name] = &testCase;
+    RunPlan plan;
+    plan.cases = plan.ownCases = selected.size();
+    FileHashes files;
+    Hasher names, contents;
+    for (const auto& [name, testCase] : byName) {
+        names.addString(name);
+        contents.addString(name).addHash(files.of(testCase->file));
+    }
+    plan.names = names.finish().hex();
+    plan.contents = contents.finish().hex();
+    return plan;
+}
+
+std::string describePartition(std::span<const std::string> names, std::span<const int> parts, int count, bool isByTime)
+{
+    if (!isByTime) return fmt::format("{} parts by name", count);
+    std::map<std::string_view, int> partOf;
+    for (size_t i = 0; i < names.size(); ++i)
+        partOf[names[i]] = parts[i];
+    Hasher hasher;
+    for (const auto& [name, part] : partOf)
+        hasher.addString(name).addNumber(static_cast<uint64_t>(part));
+    return fmt::format("{} parts by time {}", count, hasher.finish().hex());
+}
+
+std::string hashFolder(const fs::path& folder)
+{
+    std::map<std::string, fs::path> files;
+    std::error_code failure;
+    for (fs::recursive_directory_iterator entry(folder, failure), end; !failure && entry != end;
+         entry.increment(failure)) {
+        if (entry->is_regular_file(failure))
+            files[entry->path().lexically_relative(folder).generic_string()] = entry->path();
+    }
+    Hasher hasher;
+    for (const auto& [name, path] : files)
+        hasher.addString(name).addString(readText(path).value_or(""));
+    return hasher.finish().hex();
+}
+
+std::string describeHarness()
+{
+    std::string text = fmt::format("crossray {} {}", toolVersion(), sourceHash());
+    for (const auto& [name, version] : ShaderCompiler::versions())
+        text += fmt::format(", {} {}", name, version);
+    return text;
+}
+
+std::string describeOptions(const ExecuteOptions& options, bool validation)
+{
+    return fmt::format("backends {}; repeat {}; time-out {}; validation {}{}", fmt::join(options.backends, ","),
+                       options.repeat,
+                       options.timeoutSeconds ? fmt::format("{} s", *options.timeoutSeconds) : "of each case",
+                       validation ? "on" : "off", options.passedBefore ? "; changed cases alone" : "");
+}
+
+std::string hashPlan(const RunPlan& plan)
+{
+    return Hasher()
+        .addNumber(plan.cases)
+        .addString(plan.names)
+        .addString(plan.contents)
+        .addString(plan.shaders)
+        .addString(plan.harness)
+        .addString(plan.options)
+        .finish()
+        .hex();
+}
+
+std::vector<std::string> comparePlans(const RunPlan& first, const RunPlan& second)
+{
+    std::vector<std::string> differences;
+    if (first.names != second.names || first.cases != second.cases) {
+        differences.push_back(fmt::format("other cases are selected ({} against {})", first.cases, second.cases));
+    } else if (first.contents != second.contents) {
+        differences.push_back("the files of the cases differ");
+    }
+    if (first.shaders != second.shaders) differences.push_back("the shaders differ");
+    if (first.harness != second.harness) {
+        differences.push_back(fmt::format("the harness differs ({} against {})", first.harness, second.harness));
+    }
+    if (first.options != second.options) {
+        differences.push_back(fmt::format("the options differ ({} against {})", first.options, second.options));
+    }
+    if (first.partition != second.partition) {
+        differences.push_back(
+            fmt::format("the cases are parted otherwise ({} against {})", first.partition, second.partition));
+    }
+    return differences;
+}
+
+} // namespace crossray
