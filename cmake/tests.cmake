@@ -120,6 +120,14 @@ add_test(NAME consumer.theDebianPackageHoldsAToolThatRuns
                  -D VERSION=${PROJECT_VERSION} -P ${CMAKE_SOURCE_DIR}/tests/consumer/check_deb.cmake)
 set_tests_properties(consumer.theDebianPackageHoldsAToolThatRuns PROPERTIES TIMEOUT 300)
 
+# The files of docs/scale, as their engines would run them.
+if(TARGET crossray)
+  add_test(NAME scale.theFilesForEnginesMergeToTheUnshardedRun
+           COMMAND python3 ${CMAKE_SOURCE_DIR}/tests/scale/files_test.py $<TARGET_FILE:crossray> ${CMAKE_SOURCE_DIR})
+  set_tests_properties(scale.theFilesForEnginesMergeToTheUnshardedRun
+                       PROPERTIES TIMEOUT 300 SKIP_RETURN_CODE 77 ENVIRONMENT CROSSRAY_CACHE=${CMAKE_BINARY_DIR}/cli-test-cache)
+endif()
+
 # An array of four on a Slurm cluster of two nodes, of which one dies. Skipped, with the reason, where Slurm is not there.
 if(TARGET crossray)
   add_test(NAME scale.aSlurmArrayThatLosesANodeMergesToTheUnshardedRun

@@ -1,6 +1,7 @@
 #include "harness/cli/command_line.h"
 
 #include "harness/cli/command_line_parts.h"
+#include "harness/cli/ctest_folder.h"
 #include "harness/cli/manual.h"
 #include "harness/run/environment.h"
 
@@ -133,8 +134,16 @@ void addInspection(CLI::App& app, CommandLine& line)
 {
     CLI::App& list = *app.add_subcommand("list", "List cases");
     addSelection(list, line.list);
-    list.add_flag("--json", line.listJson, "As JSON");
-    list.callback([&line] { line.verb = [&line] { return listCases(line.global, line.list, line.listJson); }; });
+    CLI::Option* const asJson = list.add_flag("--json", line.listJson, "As JSON");
+    list.add_option("--ctest", line.listCtest, "Write a folder for ctest: a test a case, with its tags as labels")
+        ->type_name("DIR")
+        ->excludes(asJson);
+    list.callback([&line] {
+        line.verb = [&line] {
+            if (!line.listCtest.empty()) return writeCtestFolder(line.global, line.list, line.listCtest);
+            return listCases(line.global, line.list, line.listJson);
+        };
+    });
 
     CLI::App& show = *app.add_subcommand("show", "Show what a case will run, expect and skip");
     show.add_option("case", line.show.testCase, "A case's name, file or glob")->type_name("CASE")->required();

@@ -16,6 +16,7 @@ struct CommandLine {
     RunOptions run;
     SelectionOptions list;
     bool listJson = false;
+    std::string listCtest;
     ShowOptions show;
     TraceOptions trace;
     InspectVerbOptions inspect;

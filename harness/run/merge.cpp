@@ -121,7 +121,7 @@ class Merger {
             merged_.cases += shard.cases.size();
         startRunFolder(options_.output);
         JunitWriter junit(merged_.run.started);
-        writeCases(junit);
+        writeRunJson(junit);
         if (!options_.junit.empty()) writeFileWhole(options_.junit, junit.finish());
         return std::move(merged_);
     }
@@ -149,12 +149,29 @@ class Merger {
         }
     }
 
-    void writeCases(JunitWriter& junit)
+    void writeRunJson(JunitWriter& junit)
     {
         const fs::path file = options_.output / "run.json";
         fs::path aside = file;
         aside += fmt::format(".{}.tmp", getpid());
         std::ofstream stream(aside, std::ios::binary);
+        try {
+            writeCases(stream, junit);
+        } catch (...) {
+            fs::remove(aside);
+            throw;
+        }
+        stream.close();
+        std::error_code failure;
+        if (stream) fs::rename(aside, file, failure);
+        if (!stream || failure) {
+            fs::remove(aside, failure);
+            throw EnvironmentError(fmt::format("{}: cannot be written", file.string()));
+        }
+    }
+
+    void writeCases(std::ostream& stream, JunitWriter& junit)
+    {
         const RunJsonFrame frame = formatRunJsonFrame(merged_.run);
         stream << frame.before;
         size_t written = 0;
@@ -165,13 +182,6 @@ class Merger {
         });
         if (written > 0) stream << "\n ";
         stream << frame.after;
-        stream.close();
-        std::error_code failure;
-        if (stream) fs::rename(aside, file, failure);
-        if (!stream || failure) {
-            fs::remove(aside, failure);
-            throw EnvironmentError(fmt::format("{}: cannot be written", file.string()));
-        }
     }
 
     // What else is made of a case; it is parsed once more only where something is.

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <set>
 
 namespace crossray {
 
@@ -39,6 +40,9 @@ class CaseFiles {
         }
         return place->second;
     }
+
+    // What follows is not likely to need it, and its cases take memory.
+    void forget(const fs::path& file) { entries_.erase(fs::weakly_canonical(file)); }
 
   private:
     std::map<fs::path, Entry> entries_;
@@ -116,6 +120,8 @@ class Planner {
             for (const std::string& argument : selection_.arguments)
                 addArgument(argument);
         }
+        result_.plan.common = describeSelection(selected_);
+        result_.plan.common.partition = "whole";
         return std::move(result_);
     }
 
@@ -147,6 +153,7 @@ class Planner {
         if (entry.broken) addBroken(*entry.broken);
         for (const Case& testCase : entry.cases)
             addCase(testCase);
+        files_.forget(shortenPath(file));
     }
 
     void addSubCase(const fs::path& file, const std::string& parameters)
@@ -201,13 +208,23 @@ class Planner {
 
     void addCase(const Case& testCase)
     {
-        const auto [place, isNew] = fileOfName_.try_emplace(testCase.name, testCase.file);
+        const fs::path* const file = &*filesOfCases_.insert(testCase.file).first;
+        const auto [place, isNew] = fileOfName_.try_emplace(testCase.name, file);
         if (!isNew) {
-            if (place->second == testCase.file) return; // meant by two arguments
+            if (place->second == file) return; // meant by two arguments
             throw InputError(testCase.position, fmt::format("the name \"{}\" is taken by {}; names are unique",
-                                                            testCase.name, place->second.string()));
+                                                            testCase.name, place->second->string()));
         }
-        if (passesFilters(testCase)) result_.plan.cases.push_back(testCase);
+        if (!passesFilters(testCase)) return;
+        selected_.emplace(testCase.name, file);
+        if (!isForeign(testCase)) result_.plan.cases.push_back(testCase);
+    }
+
+    // Of another part: its name is all that this one needs, and of millions of cases all that it holds.
+    bool isForeign(const Case& testCase) const
+    {
+        return selection_.shard && !selection_.timings &&
+               findPartByName(testCase.name, selection_.shard->count) != selection_.shard->index;
     }
 
     bool passesFilters(const Case& testCase) const
@@ -223,7 +240,9 @@ class Planner {
     const Selection& selection_;
     fs::path caseRoot_;
     CaseFiles files_;
-    std::map<std::string, fs::path> fileOfName_;
+    std::set<fs::path> filesOfCases_;
+    std::map<std::string, const fs::path*> fileOfName_;
+    SelectedNames selected_;
     PlanResult result_;
 };
 
@@ -235,21 +254,18 @@ namespace {
 void takePart(Plan& plan, const Shard& shard, const std::optional<Timings>& timings)
 {
     std::vector<std::string> names;
-    for (const Case& testCase : plan.cases)
-        names.push_back(testCase.name);
     std::vector<int> parts;
     if (timings) {
+        for (const Case& testCase : plan.cases)
+            names.push_back(testCase.name);
         parts = findPartsByTime(names, *timings, shard.count);
-    } else {
-        for (const std::string& name : names)
-            parts.push_back(findPartByName(name, shard.count));
+        std::vector<Case> own;
+        for (size_t i = 0; i < parts.size(); ++i) {
+            if (parts[i] == shard.index) own.push_back(std::move(plan.cases[i]));
+        }
+        plan.cases = std::move(own);
     }
     plan.common.partition = describePartition(names, parts, shard.count, timings.has_value());
-    std::vector<Case> own;
-    for (size_t i = 0; i < parts.size(); ++i) {
-        if (parts[i] == shard.index) own.push_back(std::move(plan.cases[i]));
-    }
-    plan.cases = std::move(own);
     plan.common.ownCases = plan.cases.size();
 }
 
@@ -258,8 +274,6 @@ void takePart(Plan& plan, const Shard& shard, const std::optional<Timings>& timi
 PlanResult makePlan(const Selection& selection, const fs::path& caseRoot)
 {
     PlanResult result = Planner(selection, caseRoot).make();
-    result.plan.common = describeSelection(result.plan.cases);
-    result.plan.common.partition = "whole";
     if (selection.shard) takePart(result.plan, *selection.shard, selection.timings);
     return result;
 }

@@ -598,6 +598,7 @@ RunFile::RunFile(const std::filesystem::path& path)
     head_ = parseRunJson(slices ? std::string_view(slices->head) : file_.text(), name_);
     if (!slices) throw InputError({name_, 0, 0}, "is no run.json: its cases are no one list");
     cases_ = std::move(slices->cases);
+    release();
 }
 
 RunResult readRun(const std::filesystem::path& path)

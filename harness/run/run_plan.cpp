@@ -57,18 +57,15 @@ std::string hashNames(std::vector<std::string> names)
     return hasher.finish().hex();
 }
 
-RunPlan describeSelection(std::span<const Case> selected)
+RunPlan describeSelection(const SelectedNames& selected)
 {
-    std::map<std::string, const Case*> byName;
-    for (const Case& testCase : selected)
-        byName[testCase.name] = &testCase;
     RunPlan plan;
     plan.cases = plan.ownCases = selected.size();
     FileHashes files;
     Hasher names, contents;
-    for (const auto& [name, testCase] : byName) {
+    for (const auto& [name, file] : selected) {
         names.addString(name);
-        contents.addString(name).addHash(files.of(testCase->file));
+        contents.addString(name).addHash(files.of(*file));
     }
     plan.names = names.finish().hex();
     plan.contents = contents.finish().hex();

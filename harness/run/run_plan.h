@@ -7,6 +7,7 @@
 #include "harness/run/results.h"
 
 #include <filesystem>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,7 +16,8 @@ namespace crossray {
 
 // Of all selected cases, whatever part of them this run takes: their number, their names, and what their files and
 // presets say.
-RunPlan describeSelection(std::span<const Case> selected);
+using SelectedNames = std::map<std::string, const std::filesystem::path*>; // and the files that they stand in
+RunPlan describeSelection(const SelectedNames& selected);
 
 // Hash over names, whatever their order.
 std::string hashNames(std::vector<std::string> names);

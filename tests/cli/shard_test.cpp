@@ -166,3 +166,24 @@ TEST_F(ShardTest, whatIsNoShardIsToldInOneLine)
         EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
     }
 }
+
+TEST_F(ShardTest, ctestRunsEachCaseWithItsTagsAsLabels)
+{
+    writeCase("cases/a.toml", "set/a", "tags = [\"quick\", \"two-words\"]\nbackends = [\"cpu64\"]");
+    writeCase("cases/b.toml", "set/b", "tags = [\"quick\"]\nbackends = [\"cpu64\"]", kFails);
+    writeCase("cases/c.toml", "c", "backends = [\"cpu64\"]");
+    EXPECT_EQ(run("list --ctest tests").out, "3 tests; ctest --test-dir tests\n");
+    const auto ctest = [&](const std::string& arguments) {
+        const std::string command =
+            fmt::format("cd '{}' && CROSSRAY_CACHE='{}' ctest --test-dir tests {} >ctest.out 2>&1", folder_.string(),
+                        fs::absolute("cli-test-cache").string(), arguments);
+        return std::system(command.c_str()) == 0;
+    };
+    EXPECT_TRUE(ctest("--print-labels"));
+    EXPECT_NE(readFile("ctest.out").find("two-words"), std::string::npos) << readFile("ctest.out");
+    EXPECT_TRUE(ctest("-L 'two-words' --no-tests=error")) << readFile("ctest.out");
+    EXPECT_NE(readFile("ctest.out").find("tests passed, 0 tests failed out of 1"), std::string::npos);
+    EXPECT_FALSE(ctest("-L quick")); // b fails
+    EXPECT_NE(readFile("ctest.out").find("1 tests failed out of 2"), std::string::npos) << readFile("ctest.out");
+    EXPECT_TRUE(fs::exists(folder_ / "tests/out/set/b/planes/set/b/cpu64.exr"));
+}

@@ -8,7 +8,8 @@ crossray=$(realpath "$1")
 source=$(realpath "$2")
 
 skip() { echo "skipped: $1"; exit 77; }
-fail() { echo "FAIL: $1"; shows_logs=1; exit 1; }
+failure=
+fail() { echo "FAIL: $1"; failure=$1; exit 1; }
 
 PATH=$PATH:/usr/sbin:/sbin
 for program in munged slurmctld slurmd sbatch squeue sinfo scontrol; do
@@ -19,7 +20,6 @@ done
 dir=$(mktemp -d /tmp/crossray-slurm-XXXXXX) # short: the sockets' paths may have 108 characters
 chmod 755 "$dir"                            # munged serves no socket in a folder that is closed to others
 export SLURM_CONF=$dir/slurm.conf
-shows_logs=0
 
 # Processes of this cluster, jobs and their workers included: all have its configuration in their environment.
 list_processes() { # [MORE]: another variable of theirs
@@ -35,8 +35,9 @@ list_processes() { # [MORE]: another variable of theirs
 clean_up() {
     local code=$? id round
     trap - EXIT INT TERM
-    if [ "$shows_logs" = 1 ]; then
+    if [ -n "$failure" ]; then
         for log in "$dir"/*.log "$dir"/*.out; do echo "== $log"; tail -n 25 "$log"; done
+        echo "FAIL: $failure"
     fi
     exec 2>/dev/null # the shell's words about jobs that it sees killed
     for round in 1 2 3 4 5; do # a daemon may start one more while the list is read
@@ -131,7 +132,8 @@ wait
 END
 chmod +x "$CROSSRAY"
 cases=(--cases "$source/cases" -k "${SLURM_TEST_CASES:-proxy and (sphere or box)}" --backend cpu32,cpu64)
-"$crossray" run "${cases[@]}" --output "$dir/whole" --no-report --progress none --jobs 1 >"$dir/whole.out" 2>&1 ||
+# In the tasks' folder: paths in run.json are as seen from there.
+(cd "$dir" && "$crossray" run "${cases[@]}" --output "$dir/whole" --no-report --progress none --jobs 1 >"$dir/whole.out" 2>&1) ||
     fail "the unsharded run ended with exit code $?"
 tail -n 1 "$dir/whole.out"
 
