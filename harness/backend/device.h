@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
@@ -21,6 +22,7 @@ struct ProgramSource {
     std::vector<uint32_t> spirv;                // 1.3, optimised, validated
     std::string glsl;                           // 4.50 core
     std::string key;                            // content hash: equal keys are equal programs
+    std::vector<std::filesystem::path> files{}; // the source and what it includes; devices have no use for them
 };
 
 // Linear: between texels and between levels. Nearest: the nearest texel of the nearest level.

@@ -198,6 +198,10 @@ struct Case {
 // Reads one file and expands its parameter lists. Throws InputError with file:line:column and what is allowed.
 std::vector<Case> readCaseFile(const std::filesystem::path& file);
 
+// What a case was read from and refers to: its file, the presets above it, and every file that it names, there or not
+// (a golden, a bake). Its answers depend on no others but shaders.
+std::vector<std::filesystem::path> listFiles(const Case& testCase);
+
 // Values for one key by its dotted name ("material.ior"), as `--set` and the inspector use. Throws InputError on an
 // unknown key or a value out of range.
 std::vector<Case> readCaseFile(const std::filesystem::path& file, const std::map<std::string, std::string>& overrides);

@@ -56,28 +56,33 @@ struct CachedPresets {
 
 } // namespace
 
+fs::path findPresetsFile(const fs::path& folder)
+{
+    std::error_code error;
+    for (fs::path at = fs::absolute(folder.empty() ? "." : folder, error); !at.empty(); at = at.parent_path()) {
+        if (fs::exists(at / "presets.toml", error)) return at / "presets.toml";
+        if (at == at.parent_path()) break;
+    }
+    return {};
+}
+
 std::shared_ptr<const Node> findPresets(const fs::path& folder)
 {
     static std::mutex mutex;
     static std::map<fs::path, CachedPresets> cache;
 
+    const fs::path file = findPresetsFile(folder);
     std::error_code error;
-    for (fs::path at = fs::absolute(folder.empty() ? "." : folder, error); !at.empty(); at = at.parent_path()) {
-        const fs::path file = at / "presets.toml";
-        const fs::file_time_type time = fs::last_write_time(file, error);
-        if (!error) {
-            const std::lock_guard lock(mutex);
-            CachedPresets& cached = cache[file];
-            if (!cached.root || cached.time != time) {
-                Node root = readTomlFile(file);
-                checkPresets(root);
-                cached = {time, std::make_shared<const Node>(std::move(root))};
-            }
-            return cached.root;
-        }
-        if (at == at.parent_path()) break;
+    const fs::file_time_type time = fs::last_write_time(file, error);
+    if (file.empty() || error) return nullptr;
+    const std::lock_guard lock(mutex);
+    CachedPresets& cached = cache[file];
+    if (!cached.root || cached.time != time) {
+        Node root = readTomlFile(file);
+        checkPresets(root);
+        cached = {time, std::make_shared<const Node>(std::move(root))};
     }
-    return nullptr;
+    return cached.root;
 }
 
 const Node& findPreset(const Node* presets, std::string_view kind, const Node& name)

@@ -9,6 +9,9 @@
 
 namespace crossray {
 
+// presets.toml of the nearest folder, from `folder` upwards, that holds one; empty when none does.
+std::filesystem::path findPresetsFile(const std::filesystem::path& folder);
+
 // The presets of the nearest folder, from `folder` upwards, that holds a presets.toml; null when none does. Read once
 // and again when the file changes. Throws InputError.
 std::shared_ptr<const Node> findPresets(const std::filesystem::path& folder);

@@ -79,6 +79,8 @@ void addRun(CLI::App& app, CommandLine& line)
         ->check(CLI::Range(1, 256));
     verb.add_flag("--changed", run.changed,
                   "Leave out what has passed with the same shader code, inputs and expectations (OUT/inputs.json)");
+    verb.add_flag("--no-cache", line.noCache, "Take no verdict from the cache, and keep none");
+    verb.add_flag("--resume", run.resume, "Go on with the interrupted run in the output folder");
     verb.add_flag("-x,--exitfirst", line.stopAtFirst, "Stop at the first failure");
     verb.add_option("--max-fail", run.maxFailures, "Stop after N failures")
         ->type_name("N")
@@ -125,6 +127,7 @@ void addRun(CLI::App& app, CommandLine& line)
                 line.github == "on" || (line.github == "auto" && actions != nullptr && std::string(actions) == "true");
             if (line.stopAtFirst) line.run.maxFailures = 1;
             line.run.report = !line.noReport;
+            line.run.useCache = !line.noCache;
             return runCases(line.global, line.run);
         };
     });
@@ -289,6 +292,14 @@ void addTools(CLI::App& app, CommandLine& line)
     CLI::App& doctor = *app.add_subcommand("doctor", "Show which backends, compilers and folders are there");
     doctor.callback([&line] { line.verb = [&line] { return diagnose(line.global); }; });
 
+    CLI::App& cache = *app.add_subcommand("cache", "Show or empty the cache of shaders and verdicts");
+    cache.require_subcommand(1);
+    CLI::App& stats = *cache.add_subcommand("stats", "Show what is in it, and where");
+    stats.callback([&line] { line.verb = [&line] { return showCache(line.global); }; });
+    CLI::App& clear = *cache.add_subcommand("clear", "Empty it, or the named parts of it");
+    clear.add_option("parts", line.cacheParts, "Parts of it; none: all")->type_name("spirv|results|mesa");
+    clear.callback([&line] { line.verb = [&line] { return emptyCache(line.global, line.cacheParts); }; });
+
     CLI::App& manual = *app.add_subcommand("manual", "Print the man page, as roff");
     manual.callback([&line] { line.verb = [] { return printManual(); }; });
 
@@ -322,6 +333,10 @@ std::unique_ptr<CLI::App> makeApp(CommandLine& line)
     app->add_option("--shaders", global.shaders, "The shader folder (CROSSRAY_SHADERS)")->type_name("DIR");
     app->add_option("--cases", global.cases, "The case folder (CROSSRAY_CASES)")->type_name("DIR");
     app->add_option("--cache-dir", global.cache, "The cache folder (CROSSRAY_CACHE)")->type_name("DIR");
+    app->add_option("--cache-size", global.cacheMebibytes, "What the cache may grow to (CROSSRAY_CACHE_SIZE); 1024")
+        ->type_name("MIB")
+        ->envname("CROSSRAY_CACHE_SIZE")
+        ->check(CLI::Range(uint64_t{1}, uint64_t{1} << 24));
     addRun(*app, line);
     addInspection(*app, line);
     addReport(*app, line);

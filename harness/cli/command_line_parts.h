@@ -35,6 +35,8 @@ struct CommandLine {
     bool noReport = false;
     MergeVerbOptions merge;
     bool noMergeReport = false;
+    bool noCache = false;
+    std::vector<std::string> cacheParts;
     bool reviewList = false;
     std::string github = "auto";
     std::string workerBackend;

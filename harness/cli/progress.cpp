@@ -36,8 +36,9 @@ std::string formatCaseLine(const CaseResult& testCase, const Style& style)
         if (verdict != Verdict::kPass && verdict != Verdict::kSkip)
             others += fmt::format(", {}: {}", nameOf(verdict), backends);
     }
-    return fmt::format("{} {:<44} {} backend{}{}, {:.0f} ms\n", label, testCase.name, ran, ran == 1 ? "" : "s", others,
-                       milliseconds);
+    const std::string from =
+        testCase.answeredBy.empty() ? fmt::format("{:.0f} ms", milliseconds) : "from the " + testCase.answeredBy;
+    return fmt::format("{} {:<44} {} backend{}{}, {}\n", label, testCase.name, ran, ran == 1 ? "" : "s", others, from);
 }
 
 void Progress::startBackend(const std::string& backend, const CaseResult& testCase)

@@ -3,9 +3,11 @@
 #include "harness/inspect/worst_traces.h"
 #include "harness/report/report.h"
 #include "harness/run/attempt.h"
+#include "harness/run/cache_folder.h"
 #include "harness/run/environment.h"
 #include "harness/run/junit.h"
 #include "harness/run/plane_files.h"
+#include "harness/run/result_cache.h"
 #include "harness/run/run_json.h"
 #include "harness/run/run_plan.h"
 #include "harness/run/steps.h"
@@ -124,6 +126,12 @@ void printSummary(const RunResult& run, const RunOptions& options, const Style& 
                    options.report ? fmt::format(", pages in {}/report/index.html", options.output) : "");
     }
     if (!options.quiet) printTraceNotes(run, style, text);
+    std::map<std::string, size_t> answered;
+    for (const CaseResult& testCase : run.cases) {
+        if (!testCase.answeredBy.empty()) ++answered[testCase.answeredBy];
+    }
+    for (const auto& [by, count] : answered)
+        fmt::print(text, "{} answered from the {}\n", countOf(count, "case"), by);
     if (!run.unchanged.empty()) {
         fmt::print(text, "{} left out: passed with the same inputs\n", countOf(run.unchanged.size(), "case"));
     }
@@ -256,9 +264,10 @@ int runCases(const GlobalOptions& global, const RunOptions& given)
     } else if (!options.quiet) {
         printIgnoredOffers();
     }
-    startRunFolder(options.output);
+    startRunFolder(options.output, options.resume);
     catchInterrupts();
     // git takes some milliseconds of its own; nobody waits for it before the end.
+    std::future<Hash128> program = std::async(std::launch::async, hashProgram);
     std::future<Commit> commit = std::async(std::launch::async, [&] { return findCommit(folders.shaders); });
     std::future<std::string> shaders = std::async(std::launch::async, [&] { return hashFolder(folders.shaders); });
     FILE* const text = options.json ? stderr : stdout; // JSON stands alone on standard output
@@ -273,9 +282,15 @@ int runCases(const GlobalOptions& global, const RunOptions& given)
         workers.cores = cores;
         WorkerPool pool(workers);
         ShaderCompiler compiler(folders.cache / "spirv");
+        KeptResults kept({program.get(), options.validation, options.repeat}, folders.shaders);
+        const ResultCache cache(folders.cache / "results");
+        RunJournal journal(options.output, options.resume);
         const ExecuteOptions execution = makeExecuteOptions(global, options, backends.names, cores, passedBefore);
-        execute(selected.cases, execution, makeSteps(pool, compiler, folders.shaders, backends.names), progress,
-                interrupted, run);
+        ExecuteSteps steps = makeSteps(pool, compiler, folders.shaders, backends.names);
+        // Nobody kept the planes of what passed, nor its conditioning.
+        const bool recalls = options.planes != KeepPlanes::kAll && !options.conditioning;
+        remember({kept, journal, options.useCache ? &cache : nullptr, recalls, options.resume}, backends.names, steps);
+        execute(selected.cases, execution, steps, progress, interrupted, run);
         if (options.planes != KeepPlanes::kNone && !run.interrupted) {
             WorstTraceLimits limits;
             limits.threads = cores;
@@ -301,6 +316,11 @@ int runCases(const GlobalOptions& global, const RunOptions& given)
     writePages(run, options, isWholeShard ? fs::path(options.output).replace_extension() : fs::path(options.output));
     // Of a shard the merged run's folder has it.
     if (!options.validation && !selected.shard) writePassedCases(options.output, mergePassedCases(passedBefore, run));
+    if (!run.interrupted) {
+        std::error_code gone;
+        fs::remove(RunJournal::fileOf(options.output), gone);
+    }
+    trimCache(folders.cache, cacheBound(global));
     options.output = finishShard(run, options);
     if (options.github) fmt::print(text, "{}", formatGithubAnnotations(run));
     printSummary(run, options, style, text);

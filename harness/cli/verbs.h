@@ -18,6 +18,7 @@ namespace crossray {
 struct GlobalOptions {
     ColorMode color = ColorMode::kAuto;
     std::string shaders, cases, cache; // folders; empty: found
+    uint64_t cacheMebibytes = 1024;    // what the cache may grow to
     std::vector<std::string> commandLine;
     std::chrono::steady_clock::time_point processStart = std::chrono::steady_clock::now();
 };
@@ -38,6 +39,8 @@ struct RunOptions {
     int maxFailures = 0;
     bool keepGoing = false;
     bool changed = false; // only what has not passed with these inputs
+    bool useCache = true; // verdicts of earlier runs
+    bool resume = false;  // go on with the interrupted run in the output folder
     std::optional<double> timeoutSeconds;
     int repeat = 1;
     std::optional<uint64_t> seed; // order of the cases
@@ -54,6 +57,10 @@ struct RunOptions {
     bool quiet = false, verbose = false;
 };
 int runCases(const GlobalOptions& global, const RunOptions& options);
+
+uint64_t cacheBound(const GlobalOptions& global); // bytes
+int showCache(const GlobalOptions& global);
+int emptyCache(const GlobalOptions& global, const std::vector<std::string>& parts);
 
 int listCases(const GlobalOptions& global, const SelectionOptions& selection, bool json);
 

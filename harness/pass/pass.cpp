@@ -62,7 +62,8 @@ ProgramSource compileEntry(ShaderCompiler& compiler, const std::filesystem::path
     options.includeRoot = shaderRoot;
     options.specialization = std::move(specialization);
     CompiledShader compiled = compiler.compile(shaderRoot / entry, options);
-    return {entry, options.specialization, std::move(compiled.spirv), std::move(compiled.glsl), compiled.key};
+    return {entry,        options.specialization,     std::move(compiled.spirv), std::move(compiled.glsl),
+            compiled.key, std::move(compiled.closure)};
 }
 
 // Collects the pieces of a job; resources are numbered in the order in which they are added.

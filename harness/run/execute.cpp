@@ -81,6 +81,7 @@ class Execution {
     void runAll()
     {
         const Clock::time_point start = Clock::now();
+        if (steps_.recall) openAll();
         {
             std::vector<std::jthread> threads;
             for (int core = 0; core < options_.cores; ++core)
@@ -105,6 +106,52 @@ class Execution {
             bytes.push_back(estimateBytes(testCase, order_.size()));
         }
         return Schedule(std::move(applies), std::move(bytes), static_cast<size_t>(options_.cores), Schedule::Limits{});
+    }
+
+    // Whether a kept result still answers depends on each device's fingerprint.
+    void openAll()
+    {
+        std::vector<std::jthread> threads;
+        for (size_t i = 0; i < order_.size(); ++i) {
+            threads.emplace_back([this, i] {
+                try {
+                    openWorker(i % static_cast<size_t>(options_.cores), order_[i]);
+                } catch (...) {
+                    const std::lock_guard lock(mutex_);
+                    if (!failure_) failure_ = std::current_exception();
+                }
+            });
+        }
+    }
+
+    ExecuteSteps::Devices devices()
+    {
+        const std::lock_guard lock(backendsMutex_);
+        ExecuteSteps::Devices open;
+        for (const auto& [name, record] : run_.backends) {
+            if (record.environmentError.empty()) open[name] = record.fingerprint;
+        }
+        return open;
+    }
+
+    // Returns whether the case has its verdicts already.
+    bool recallCase(std::unique_lock<std::mutex>& lock, size_t caseIndex)
+    {
+        if (!steps_.recall) return false;
+        lock.unlock();
+        std::optional<CaseResult> known = steps_.recall(cases_[caseIndex], devices());
+        lock.lock();
+        if (!known) return false;
+        CaseResult& place = run_.cases[caseIndex];
+        std::vector<BackendResult> results = std::move(known->backends);
+        place = std::move(*known);
+        place.backends.clear();
+        for (BackendResult& result : results)
+            recordVerdict(caseIndex, std::move(result));
+        schedule_.finishPrepare(caseIndex, false);
+        finishCase(caseIndex);
+        changed_.notify_all();
+        return true;
     }
 
     // The calling thread keeps the observer's clock and looks for an interruption while the cores' threads work.
@@ -151,6 +198,7 @@ class Execution {
 
     void prepare(std::unique_lock<std::mutex>& lock, size_t core, size_t caseIndex)
     {
+        if (recallCase(lock, caseIndex)) return;
         const Case& testCase = cases_[caseIndex];
         bool needsFloat = false, needsDouble = false;
         for (const std::string& backend : options_.backends) {
@@ -318,6 +366,9 @@ class Execution {
         CaseResult copy = run_.cases[caseIndex];
         lock.unlock();
         flight.writePlanes(copy);
+        if (steps_.keep && copy.backends.size() == options_.backends.size()) {
+            steps_.keep(cases_[caseIndex], flight.prepared(), copy, devices());
+        }
         lock.lock();
         run_.cases[caseIndex] = std::move(copy);
         finishCase(caseIndex);

@@ -11,6 +11,7 @@
 #include <chrono>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -55,6 +56,12 @@ struct ExecuteSteps {
     std::function<Fingerprint(const std::string& backend, int core)> open;
     std::function<std::vector<Plane>(const Case&, const JobResult&)> readPlanes;
     std::function<void()> killWorkers; // on interruption; may be called again
+
+    // What is known already of a case; null where nothing can be. Every backend's device is open by then.
+    using Devices = std::map<std::string, Fingerprint>;
+    std::function<std::optional<CaseResult>(const Case&, const Devices&)> recall;
+    // Called with each case whose backends have all answered or been skipped; null where nothing is kept.
+    std::function<void(const Case&, const PreparedCase&, const CaseResult&, const Devices&)> keep;
 };
 
 // What happens, as it happens. Calls come one at a time, from any thread.

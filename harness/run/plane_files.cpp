@@ -59,8 +59,16 @@ std::string PlaneFiles::writeTrace(const std::string& caseName, const std::strin
     return relative.generic_string();
 }
 
-void startRunFolder(const fs::path& folder)
+void startRunFolder(const fs::path& folder, bool resume)
 {
+    if (resume) {
+        const RunResult last = readRun(folder);
+        if (!last.interrupted) {
+            throw InputError(
+                fmt::format("--resume: the run in {} has ended; allowed is one that was interrupted", folder.string()));
+        }
+        return;
+    }
     createFolder(folder);
     const fs::path json = folder / "run.json", planes = folder / "planes";
     std::error_code failure;

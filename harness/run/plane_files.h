@@ -32,7 +32,8 @@ class PlaneFiles {
 // Makes the folder ready for a new run: what an earlier run left there is removed, and a run.json that says
 // "interrupted" stands until the run has ended. Throws InputError when the folder holds anything that no run has
 // written, EnvironmentError when it cannot be written to.
-void startRunFolder(const std::filesystem::path& folder);
+// With `resume` what is there stays. InputError then when no run was interrupted there.
+void startRunFolder(const std::filesystem::path& folder, bool resume = false);
 
 // Where two answers differ, bit by bit (a NaN equals a NaN): "repeat 2 differs: HitDepth at 3 values, first at (4, 5)".
 // Empty when they do not.

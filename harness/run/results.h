@@ -101,6 +101,7 @@ struct CaseResult {
     bool mustFail = false;
     double prepareMs = 0;     // scene, G-buffer
     double compileMs = 0;     // shaders and the job, of both precisions
+    std::string answeredBy;   // "cache" or "interrupted run" where no backend was asked; else empty
     std::string inputKey;     // of all that the verdicts depend on; empty when it could not be prepared
     std::string expectedFile; // expected planes, relative to the run's folder; empty when not kept
     std::optional<ConditioningResult> conditioning; // where it was measured

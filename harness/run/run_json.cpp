@@ -286,7 +286,8 @@ Json caseToJson(const CaseResult& testCase)
         {"tags", testCase.tags},         {"position", positionToJson(testCase.position)},
         {"width", testCase.width},       {"height", testCase.height},
         {"mustFail", testCase.mustFail}, {"times", {{"prepare", testCase.prepareMs}, {"compile", testCase.compileMs}}},
-        {"inputs", testCase.inputKey},   {"expected", testCase.expectedFile}};
+        {"inputs", testCase.inputKey},   {"answeredBy", testCase.answeredBy},
+        {"expected", testCase.expectedFile}};
     if (testCase.conditioning) json["conditioning"] = conditioningToJson(*testCase.conditioning);
     Json backends = Json::array();
     for (const BackendResult& result : testCase.backends)
@@ -308,6 +309,7 @@ CaseResult caseFromJson(const Json& json)
     testCase.prepareMs = json.at("times").at("prepare").get<double>();
     testCase.compileMs = json.at("times").at("compile").get<double>();
     testCase.inputKey = json.at("inputs").get<std::string>();
+    testCase.answeredBy = json.value("answeredBy", ""); // younger than the schema
     testCase.expectedFile = json.at("expected").get<std::string>();
     if (json.contains("conditioning")) testCase.conditioning = conditioningFromJson(json.at("conditioning"));
     for (const Json& result : json.at("backends"))

@@ -37,6 +37,13 @@ void CliTest::SetUp()
     const testing::TestInfo* const test = testing::UnitTest::GetInstance()->current_test_info();
     folder_ = fs::temp_directory_path() / fmt::format("crossray-cli-{}-{}", test->name(), getpid());
     fs::create_directories(folder_ / "cases");
+    // Compiled shaders are shared by all tests; verdicts are not, since one test's cases are like another's.
+    fs::create_directories(folder_ / "cache");
+    for (const char* part : {"spirv", "mesa"}) {
+        const fs::path shared = fs::absolute("cli-test-cache") / part;
+        fs::create_directories(shared);
+        fs::create_directory_symlink(shared, folder_ / "cache" / part);
+    }
 }
 
 void CliTest::TearDown()
@@ -50,7 +57,7 @@ int CliTest::start(const std::string& arguments, const std::string& variables) c
         "cd '{}' && unset CI_NODE_INDEX CI_NODE_TOTAL TEST_TOTAL_SHARDS GTEST_TOTAL_SHARDS SLURM_ARRAY_TASK_ID "
         "JOB_COMPLETION_INDEX; export CROSSRAY_CASES=cases CROSSRAY_CACHE='{}' GITHUB_ACTIONS= {}; "
         "exec '{}' {} >'{}/.stdout' 2>'{}/.stderr'",
-        folder_.string(), fs::absolute("cli-test-cache").string(), variables, fs::absolute("crossray").string(),
+        folder_.string(), (folder_ / "cache").string(), variables, fs::absolute("crossray").string(),
         arguments, folder_.string(), folder_.string());
     const pid_t process = fork();
     if (process == 0) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <regex>
 #include <set>
 
 using namespace crossray;
@@ -38,4 +40,26 @@ TEST(CommittedCases, stateTheirClaimAndAreTagged)
         EXPECT_FALSE(c.tags.empty()) << file;
         EXPECT_EQ(c.mustFail, c.name.starts_with("must_fail/")) << file;
     }
+}
+
+// What a kept verdict depends on: whatever a committed case names as a file has to be in the list.
+TEST(CommittedCases, everyFileThatACaseNamesIsListed)
+{
+    const std::regex named("\"([^\"]+\\.(exr|json|glsl|comp))\"");
+    size_t found = 0;
+    for (const std::filesystem::path& file : findCaseFiles(CROSSRAY_SOURCE_DIR "/cases")) {
+        std::ifstream stream(file);
+        const std::string text((std::istreambuf_iterator<char>(stream)), {});
+        std::set<std::filesystem::path> listed;
+        for (const Case& testCase : readCaseFile(file)) {
+            for (const std::filesystem::path& one : listFiles(testCase))
+                listed.insert(std::filesystem::weakly_canonical(one));
+        }
+        EXPECT_TRUE(listed.contains(std::filesystem::weakly_canonical(file))) << file;
+        for (std::sregex_iterator match(text.begin(), text.end(), named), end; match != end; ++match, ++found) {
+            const auto path = std::filesystem::weakly_canonical(file.parent_path() / (*match)[1].str());
+            EXPECT_TRUE(listed.contains(path)) << file << " names " << path;
+        }
+    }
+    EXPECT_GT(found, 20u);
 }
