@@ -15,7 +15,7 @@ function(crossray_test_program name)
                        PROPERTIES TIMEOUT 300)
 endfunction()
 
-foreach(module base scene compile backend backend_cpu backend_vulkan backend_gl judge case expect pass run bench inspect inspector report sweep cli)
+foreach(module base scene compile backend backend_cpu backend_vulkan backend_gl judge case expect pass run bench inspect inspector report sweep mutate cli)
   file(GLOB test_sources CONFIGURE_DEPENDS tests/unit/${module}/*_test.cpp)
   if(test_sources AND TARGET crossray_${module})
     crossray_test_program(test_${module} SOURCES ${test_sources} USES crossray_${module})

@@ -227,7 +227,7 @@ void addReport(CLI::App& app, CommandLine& line)
         ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     report
-        .add_option("--bench", line.report.benches, "JSON of bench, bench tracers or sweep, as charts; may be repeated")
+        .add_option("--bench", line.report.benches, "JSON of bench, bench tracers, sweep or mutate, as charts; may be repeated")
         ->type_name("FILE")
         ->expected(1)
         ->allow_extra_args(false)
@@ -344,6 +344,7 @@ std::unique_ptr<CLI::App> makeApp(CommandLine& line)
     addTools(*app, line);
     addBench(*app, line);
     addSweep(*app, line);
+    addMutate(*app, line);
     return app;
 }
 

@@ -25,6 +25,7 @@ struct CommandLine {
     BenchCasesOptions bench;
     BakeOptions bake;
     SweepVerbOptions sweep;
+    MutateOptions mutate;
     CompileVerbOptions compile;
     bool noOptimization = false;
     std::string before, after;
@@ -52,5 +53,6 @@ void addSelection(CLI::App& verb, SelectionOptions& selection);
 // The verbs that measure.
 void addBench(CLI::App& app, CommandLine& line);
 void addSweep(CLI::App& app, CommandLine& line);
+void addMutate(CLI::App& app, CommandLine& line);
 
 } // namespace crossray

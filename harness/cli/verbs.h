@@ -192,6 +192,23 @@ int sweepCase(const GlobalOptions& global, const SweepVerbOptions& options);
 
 // Cases for a command line: prints what is wrong with it to standard error. `keepGoing` lets broken files pass. The
 // exit code is set when there is nothing to go on with.
+struct MutateOptions {
+    SelectionOptions selection;
+    std::vector<std::string> shaders; // files or folders; empty: the library
+    std::vector<std::string> mutants; // parts of their ids; empty: all
+    size_t sample = 0;                // 0: all
+    uint64_t seed = 1;
+    std::string backend = "lavapipe";
+    int jobs = 0; // 0: all there are
+    int idleTries = 0;
+    double minScore = 0;        // percent
+    std::string json, output;   // a file; a folder; empty: none
+    std::string equivalents;    // file; empty: the source tree's
+    bool tryEquivalents = false; // run them like the others
+    bool list = false, verbose = false;
+};
+int mutateShaders(const GlobalOptions& global, const MutateOptions& options);
+
 struct SelectedCases {
     std::vector<Case> cases;
     std::vector<std::string> broken; // one line each

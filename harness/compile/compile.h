@@ -44,13 +44,13 @@ struct CompiledShader {
 class ShaderCompiler {
   public:
     explicit ShaderCompiler(std::filesystem::path cacheFolder); // empty: no cache on disk
-    ~ShaderCompiler();
+    virtual ~ShaderCompiler();
     ShaderCompiler(const ShaderCompiler&) = delete;
     ShaderCompiler& operator=(const ShaderCompiler&) = delete;
 
     // SPIR-V and GLSL 4.50 of a file below the include root ("entry/screen_trace.comp") or anywhere else. Throws
     // ShaderError with "file:line:column: error: text" lines of the source the person wrote.
-    CompiledShader compile(const std::filesystem::path& shader, const CompileOptions& options);
+    virtual CompiledShader compile(const std::filesystem::path& shader, const CompileOptions& options);
     // The text of any target language from SPIR-V; kSpirv gives the disassembly. Names are those of a debugInfo
     // compile.
     std::string translate(const std::vector<uint32_t>& spirv, CompileTarget target);

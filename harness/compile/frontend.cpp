@@ -125,10 +125,11 @@ std::string explainOwnTracer(const std::string& log, const std::string& rewritte
 }
 
 FrontendResult parseHere(const ShaderLocation& location, const fs::path& includeRoot, bool lines,
-                         const fs::path& ownTracer)
+                         const fs::path& ownTracer, SourceSet known)
 {
     const EShLanguage stage = findStage(location.path);
     FrontendResult result;
+    result.sources = std::move(known);
     const SourceFile& entry = result.sources.open(location.name, location.path);
     RootedIncluder includer(result.sources, includeRoot, ownTracer);
     const auto explain = [&](const std::string& log) {
@@ -197,10 +198,10 @@ void runWithLargeStack(const std::function<void()>& work)
 } // namespace
 
 FrontendResult parseShader(const ShaderLocation& location, const fs::path& includeRoot, bool lines,
-                           const fs::path& ownTracer)
+                           const fs::path& ownTracer, SourceSet known)
 {
     FrontendResult result;
-    runWithLargeStack([&] { result = parseHere(location, includeRoot, lines, ownTracer); });
+    runWithLargeStack([&] { result = parseHere(location, includeRoot, lines, ownTracer, std::move(known)); });
     return result;
 }
 

@@ -13,9 +13,10 @@ struct FrontendResult {
     SourceSet sources;           // the entry first
 };
 
-// `ownTracer` is the person's file behind the include kOwnTracerInclude; empty: there is none. Throws ShaderError (the
-// source is wrong) or InputError (it is missing, too large, of an unknown kind).
+// `ownTracer` is the person's file behind the include kOwnTracerInclude; empty: there is none. `known`: files that are
+// not read again, whatever the disk has. Throws ShaderError (the source is wrong) or InputError (it is missing, too
+// large, of an unknown kind).
 FrontendResult parseShader(const ShaderLocation& shader, const std::filesystem::path& includeRoot, bool lines,
-                           const std::filesystem::path& ownTracer = {});
+                           const std::filesystem::path& ownTracer = {}, SourceSet known = {});
 
 } // namespace crossray

@@ -97,6 +97,14 @@ std::vector<uint32_t> specialize(const std::vector<uint32_t>& spirv, const std::
     return allowContraction(runPasses(second, straight));
 }
 
+std::vector<uint32_t> dropDeadFunctions(const std::vector<uint32_t>& spirv)
+{
+    spvtools::Optimizer optimizer(kEnvironment);
+    optimizer.RegisterPass(spvtools::CreateDeadBranchElimPass());
+    optimizer.RegisterPass(spvtools::CreateEliminateDeadFunctionsPass());
+    return runPasses(optimizer, spirv);
+}
+
 std::vector<uint32_t> stripDebugInfo(const std::vector<uint32_t>& spirv)
 {
     spvtools::Optimizer optimizer(kEnvironment);

@@ -12,6 +12,9 @@ namespace crossray {
 // Throws InputError that lists the known names when one is unknown.
 std::vector<uint32_t> specialize(const std::vector<uint32_t>& spirv, const std::map<std::string, double>& values,
                                  bool optimize);
+// Without what the constants of a frozen module rule out: branches, and functions that are then called by none. What
+// specialize() makes of the rest is the same, and much sooner.
+std::vector<uint32_t> dropDeadFunctions(const std::vector<uint32_t>& spirv);
 std::vector<uint32_t> stripDebugInfo(const std::vector<uint32_t>& spirv);
 // Throws ShaderError when the module breaks the rules of Vulkan 1.1.
 void validate(const std::vector<uint32_t>& spirv);

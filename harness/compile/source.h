@@ -30,6 +30,8 @@ class SourceSet {
     // Reads the file when it is not here yet. Throws InputError when it is missing, unreadable, too large or no text.
     const SourceFile& open(const std::string& name, const std::filesystem::path& path);
     const SourceFile* find(std::string_view name) const;
+    // A file as it is to be, whatever the disk has.
+    void add(SourceFile file) { files_.push_back(std::move(file)); }
     const std::deque<SourceFile>& files() const { return files_; }
 
   private:

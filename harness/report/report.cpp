@@ -25,7 +25,8 @@ namespace {
 constexpr size_t kChunkBytes = 256 << 10; // of passed cases' details in one piece
 constexpr size_t kMaxLeftOutLines = 40;
 constexpr std::string_view kTraceSchema = "crossray-trace/1";
-constexpr std::string_view kBenchSchemas[] = {"crossray-bench/1", "crossray-tracers/1", "crossray-sweep/1"};
+constexpr std::string_view kBenchSchemas[] = {"crossray-bench/1", "crossray-tracers/1", "crossray-sweep/1",
+                                             "crossray-mutation/1"};
 
 // The planes of one case that a report may hold, the most telling first.
 struct PlaneSource {
@@ -154,7 +155,7 @@ class Report {
             if (std::find(std::begin(kBenchSchemas), std::end(kBenchSchemas), schema) == std::end(kBenchSchemas)) {
                 throw InputError(
                     {bench.name, 0, 0},
-                    fmt::format("its schema is \"{}\"; allowed are {}: what bench, bench tracers and sweep write",
+                    fmt::format("its schema is \"{}\"; allowed are {}: what bench, bench tracers, sweep and mutate write",
                                 schema, fmt::join(kBenchSchemas, ", ")));
             }
             index_.benches.push_back(fmt::format("bench-{}", index_.benches.size()));

@@ -39,7 +39,7 @@ struct ReportOptions {
     std::vector<std::string> leftOut;   // what the run that is given lacks already, one line each
     std::vector<ReportInput> traces;    // of `crossray trace --json`, shown with the case and pixel that they are of
     std::vector<ReportCubemap> cubemaps;
-    std::vector<ReportInput> benches; // JSON of `bench`, `bench tracers` and `sweep`, as charts
+    std::vector<ReportInput> benches; // JSON of `bench`, `bench tracers`, `sweep` and `mutate`
 };
 
 struct ReportSummary {

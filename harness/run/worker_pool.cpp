@@ -60,6 +60,7 @@ class Worker {
 
     JobReport run(const Job& job, std::chrono::duration<double> timeout);
     Fingerprint open(); // throws EnvironmentError
+    void restart();
     void dismiss();
     int processId();
     MemoryUse memory(); // the largest of its processes
@@ -220,6 +221,12 @@ Fingerprint Worker::open()
     return greeting_.fingerprint;
 }
 
+void Worker::restart()
+{
+    const std::lock_guard lock(running_);
+    drop();
+}
+
 void Worker::dismiss()
 {
     const std::lock_guard lock(processMutex_);
@@ -294,6 +301,11 @@ JobReport WorkerPool::run(const std::string& backend, int core, const Job& job, 
 Fingerprint WorkerPool::fingerprint(const std::string& backend, int core)
 {
     return impl_->workerOf(backend, core).open();
+}
+
+void WorkerPool::restart(const std::string& backend, int core)
+{
+    impl_->workerOf(backend, core).restart();
 }
 
 std::vector<int> WorkerPool::processIds(const std::string& backend) const

@@ -54,6 +54,8 @@ class WorkerPool {
     // Starts a worker ahead of need; returns its device's fingerprint. Throws EnvironmentError when the device cannot
     // be opened.
     Fingerprint fingerprint(const std::string& backend, int core = 0);
+    // Ends the worker, which is at rest; the next job gets a fresh one, without what the old one had kept.
+    void restart(const std::string& backend, int core);
     // Process ids of live workers. Killing one ends the job that it runs as a crash.
     std::vector<int> processIds(const std::string& backend) const;
     // Sum of the workers' peak resident memory so far, bytes. Pages of libraries count once a backend, not once a

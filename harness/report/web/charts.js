@@ -3,6 +3,7 @@
 import { loadPiece } from 'crossray/data.js';
 import { h, redraw } from 'crossray/dom.js';
 import { formatShort } from 'crossray/numbers.js';
+import { drawMutations } from 'crossray/mutations.js';
 import { kDashes, logAxis, svg } from 'crossray/svg.js';
 import { drawSweep, sweepOutputs } from 'crossray/sweeps.js';
 
@@ -115,7 +116,8 @@ function choice(label, value, choices, change) {
 export async function drawCharts(box, { index, state, update, has }) {
   const files = await Promise.all(index.benches.map((bench) => loadPiece(bench.piece)));
   const sweeps = files.filter((file) => file.schema === 'crossray-sweep/1');
-  const charts = files.filter((file) => !sweeps.includes(file)).flatMap(readCharts).filter((chart) => chart.points.length > 0);
+  const hunts = files.filter((file) => file.schema === 'crossray-mutation/1');
+  const charts = files.filter((file) => !sweeps.includes(file) && !hunts.includes(file)).flatMap(readCharts).filter((chart) => chart.points.length > 0);
   const errors = [...new Set([...charts.flatMap((chart) => Object.keys(chart.points[0].errors)), ...sweeps.flatMap(sweepOutputs)])];
   const costs = [...new Set(charts.flatMap((chart) => Object.keys(chart.points[0].costs)))].filter((name) => name in kCosts);
   const error = errors.includes(state.error) ? state.error : '';
@@ -130,8 +132,8 @@ export async function drawCharts(box, { index, state, update, has }) {
         chart.reliability?.length > 0 && drawReliability(chart.reliability)));
   });
   const ofSweeps = sweeps.map((sweep) => drawSweep(sweep, sweepOutputs(sweep).includes(error) ? error : '', has(sweep.case)));
-  redraw(box, h('h2', {}, charts.length > 0 ? 'Error against cost' : 'Sweeps'),
+  redraw(box, h('h2', {}, charts.length > 0 ? 'Error against cost' : sweeps.length > 0 ? 'Sweeps' : 'Planted bugs'),
     h('div', { class: 'chart-controls' }, choice('error ', error, [['', 'the first of each'], ...errors.map((name) => [name, name])], (value) => update({ error: value })),
       costs.length > 0 && choice('cost ', cost, costs.map((name) => [name, kCosts[name]]), (value) => update({ cost: value })),
-      h('button', { type: 'button', class: 'small', onclick: () => update({ page: '' }) }, 'back to the case')), sections, ofSweeps);
+      h('button', { type: 'button', class: 'small', onclick: () => update({ page: '' }) }, 'back to the case')), sections, ofSweeps, hunts.map((hunt) => drawMutations(hunt, has)));
 }

@@ -1,0 +1,38 @@
+// Which functions a variant can call, read off the module before anything is optimised.
+#pragma once
+
+#include "harness/compile/spirv_function.h"
+
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace crossray {
+
+// A parsed module with its names, for several questions.
+class SpirvReach {
+  public:
+    explicit SpirvReach(const std::vector<uint32_t>& spirv);
+
+    // Functions by their names in SPIR-V ("saturate(f1;") that the first entry point reaches with these specialization
+    // constants: branches that whole numbers and bools decide are followed on their one side. Never too few.
+    std::set<std::string> find(const std::map<std::string, double>& specialization) const;
+    // The module with the bodies of all other functions emptied, which are only there to be dropped, and without names
+    // but those of specialization constants.
+    std::vector<uint32_t> emptyOthers(const std::set<std::string>& kept) const;
+
+  private:
+    using Values = std::map<uint32_t, int64_t>;
+    Values evaluateConstants(const std::map<std::string, double>& specialization) const;
+    // Ids of the functions that one calls.
+    std::set<uint32_t> findCalls(const SpirvFunction& function, Values& values) const;
+
+    SpirvModule module_;
+    std::map<uint32_t, std::string> names_;
+    std::map<uint32_t, size_t> functions_; // by id
+    uint32_t entry_ = 0;
+};
+
+} // namespace crossray
