@@ -154,7 +154,8 @@ void addInspection(CLI::App& app, CommandLine& line)
         ->type_name("NAME,...")
         ->delimiter(',')
         ->expected(1)
-        ->allow_extra_args(false);
+        ->allow_extra_args(false)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     show.add_option("--image", line.show.image,
                     "Run the case and draw its debug modes, on the first backend named; - for the terminal alone")
         ->type_name("FILE.png");
@@ -162,7 +163,8 @@ void addInspection(CLI::App& app, CommandLine& line)
         ->type_name("NAME,...")
         ->delimiter(',')
         ->expected(1)
-        ->allow_extra_args(false);
+        ->allow_extra_args(false)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     show.add_option("--debug-mode", line.show.debugMode, "With --image: this debug mode alone, in its display encoding")
         ->type_name("NAME");
     show.add_flag("--conditioning", line.show.conditioning,

@@ -287,8 +287,8 @@ int runCases(const GlobalOptions& global, const RunOptions& given)
         RunJournal journal(options.output, options.resume);
         const ExecuteOptions execution = makeExecuteOptions(global, options, backends.names, cores, passedBefore);
         ExecuteSteps steps = makeSteps(pool, compiler, folders.shaders, backends.names);
-        // Nobody kept the planes of what passed, nor its conditioning.
-        const bool recalls = options.planes != KeepPlanes::kAll && !options.conditioning;
+        // Nobody kept the planes of what passed, nor its conditioning; --changed leaves out what has passed here.
+        const bool recalls = options.planes != KeepPlanes::kAll && !options.conditioning && !options.changed;
         remember({kept, journal, options.useCache ? &cache : nullptr, recalls, options.resume}, backends.names, steps);
         execute(selected.cases, execution, steps, progress, interrupted, run);
         if (options.planes != KeepPlanes::kNone && !run.interrupted) {

@@ -44,6 +44,7 @@ nlohmann::json withoutTimes(nlohmann::json run)
         backend.erase("startMs");
     for (auto& testCase : run["cases"]) {
         testCase.erase("times");
+        testCase.erase("answeredBy");
         for (auto& result : testCase["backends"]) {
             result.erase("times");
             result.erase("programsWereWarm");

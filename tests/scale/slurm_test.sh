@@ -133,7 +133,7 @@ END
 chmod +x "$CROSSRAY"
 cases=(--cases "$source/cases" -k "${SLURM_TEST_CASES:-proxy and (sphere or box)}" --backend cpu32,cpu64)
 # In the tasks' folder: paths in run.json are as seen from there.
-(cd "$dir" && "$crossray" run "${cases[@]}" --output "$dir/whole" --no-report --progress none --jobs 1 >"$dir/whole.out" 2>&1) ||
+(cd "$dir" && "$crossray" run --no-cache "${cases[@]}" --output "$dir/whole" --no-report --progress none --jobs 1 >"$dir/whole.out" 2>&1) ||
     fail "the unsharded run ended with exit code $?"
 tail -n 1 "$dir/whole.out"
 

@@ -9,6 +9,8 @@
 #include <chrono>
 #include <ctime>
 
+#include <sched.h>
+
 using namespace crossray;
 
 namespace {
@@ -26,9 +28,17 @@ double millisecondsSince(Clock::time_point start)
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-// How much longer than the processor works a loop takes here: 1 where the processor has nothing else to do.
+// How much longer than the processor works a loop takes: 1 where the processor has nothing else to do. On the first
+// one that this process may use, where the worker is.
 double measureCrowding()
 {
+    cpu_set_t mine, first;
+    CPU_ZERO(&first);
+    const bool isKnown = sched_getaffinity(0, sizeof(mine), &mine) == 0;
+    for (int cpu = 0; isKnown && CPU_COUNT(&first) == 0 && cpu < CPU_SETSIZE; ++cpu) {
+        if (CPU_ISSET(cpu, &mine)) CPU_SET(cpu, &first);
+    }
+    if (isKnown) sched_setaffinity(0, sizeof(first), &first);
     const Clock::time_point start = Clock::now();
     timespec from{}, to{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &from);
@@ -38,6 +48,7 @@ double measureCrowding()
         worked =
             static_cast<double>(to.tv_sec - from.tv_sec) * 1e3 + static_cast<double>(to.tv_nsec - from.tv_nsec) * 1e-6;
     }
+    if (isKnown) sched_setaffinity(0, sizeof(mine), &mine);
     return std::max(1.0, millisecondsSince(start) / worked);
 }
 
@@ -87,13 +98,14 @@ TEST_F(LatencyTest, aRenderOf256By256IsThereBeforeItIsMissed)
     double best = 1e9, crowding = 1e9;
     Json parts;
     for (int i = 0; i < kRounds; ++i) {
-        crowding = std::min(crowding, measureCrowding());
+        const double before = measureCrowding();
         const Waited waited = post(
             "/render", {{"backends", {"lavapipe"}},
                         {"parameters",
                          {{"scene.size.0", 256}, {"scene.size.1", 256}, {"projection.depth_bias", 0.5 + 0.01 * i}}}});
         if (i < 2 || waited.milliseconds >= best) continue; // warm from the third on
         best = waited.milliseconds;
+        crowding = std::max(before, measureCrowding());
         parts = waited.answer["milliseconds"];
     }
     const double shader = parts["shader"]["lavapipe"];
@@ -111,11 +123,13 @@ TEST_F(LatencyTest, aTraceFollowsTheMouse)
     if (!hasLavapipe()) GTEST_SKIP() << "no lavapipe here";
     double best = 1e9, crowding = 1e9;
     for (int i = 0; i < kRounds; ++i) {
-        crowding = std::min(crowding, measureCrowding());
+        const double before = measureCrowding();
         const Waited waited = post("/trace", {{"backends", {"lavapipe"}},
                                               {"parameters", {{"scene.size.0", 256}, {"scene.size.1", 256}}},
                                               {"pixel", {100 + i, 180}}});
-        if (i >= 2) best = std::min(best, waited.milliseconds);
+        if (i < 2 || waited.milliseconds >= best) continue;
+        best = waited.milliseconds;
+        crowding = std::max(before, measureCrowding());
     }
     fmt::print("trace at 256x256: {:.0f} ms; crowding {:.1f}\n", best, crowding);
     RecordProperty("trace_ms", fmt::format("{:.1f}", best));
