@@ -141,9 +141,10 @@ TEST(Guards, EachOperationHasItsTest)
         const std::string& test = textOf(entry, "test");
         EXPECT_NE(test.empty(), textOf(entry, "why").empty())
             << entry.place.position().format() << ": \"test\" or \"why\"";
-        if (!test.empty())
+        if (!test.empty()) {
             EXPECT_TRUE(tests.contains(test))
                 << entry.place.position().format() << ": there is no test \"" << test << '"';
+        }
         EXPECT_FALSE(textOf(entry, "input").empty())
             << entry.place.position().format() << ": \"input\" says what is degenerate";
     }
