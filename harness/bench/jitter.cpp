@@ -1,30 +1,12 @@
 #include "harness/bench/jitter.h"
 
+#include "harness/expect/truth_class.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 namespace crossray {
-
-namespace {
-
-HitClass classOf(ScreenKnowledge knowledge)
-{
-    switch (knowledge) {
-    case ScreenKnowledge::kVisible:
-        return HitClass::kHit;
-    case ScreenKnowledge::kHidden:
-    case ScreenKnowledge::kOffScreen:
-        return HitClass::kUnknown;
-    case ScreenKnowledge::kSky:
-        return HitClass::kMiss;
-    case ScreenKnowledge::kNoRay:
-        break;
-    }
-    return HitClass::kNoRaycast;
-}
-
-} // namespace
 
 std::vector<Camera> makeJitteredCameras(const Camera& camera)
 {

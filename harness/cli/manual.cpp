@@ -1,5 +1,7 @@
 #include "harness/cli/manual.h"
 
+#include "harness/cli/failure_text.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -37,14 +39,6 @@ std::string escapeForRoffArgument(std::string_view text)
     for (size_t at = escaped.find('"'); at != std::string::npos; at = escaped.find('"', at + 4))
         escaped.replace(at, 1, "\\(dq");
     return escaped;
-}
-
-std::string quoteForShell(std::string_view text)
-{
-    std::string quoted = "'";
-    for (const char character : text)
-        quoted += character == '\'' ? "'\\''" : std::string(1, character);
-    return quoted + "'";
 }
 
 void addOptions(const std::vector<OptionDescription>& options, std::string& page)

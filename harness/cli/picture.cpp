@@ -17,15 +17,15 @@
 
 namespace crossray {
 
-namespace {
-
-using Rgb = glm::dvec3;
-
 double encodeSrgb(double linear)
 {
     const double value = std::clamp(linear, 0.0, 1.0);
     return value <= 0.0031308 ? value * 12.92 : 1.055 * std::pow(value, 1.0 / 2.4) - 0.055;
 }
+
+namespace {
+
+using Rgb = glm::dvec3;
 
 Rgb colorOfClass(int hitClass)
 {

@@ -24,6 +24,9 @@ struct Panel {
 // HitSuccess green, blue or black, counts by their maximum; colours are linear radiance shown as sRGB.
 Panel encodePanel(const Plane& plane);
 
+// Of linear light, clamped to what a picture can show.
+double encodeSrgb(double linear);
+
 // Panels in a grid, three bytes a pixel.
 struct Picture {
     int width = 0, height = 0;

@@ -24,8 +24,7 @@ double toLinear(double encoded)
 
 unsigned char toByte(double linear)
 {
-    const double encoded = linear <= 0.0031308 ? linear * 12.92 : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
-    return static_cast<unsigned char>(std::lround(std::clamp(encoded, 0.0, 1.0) * 255));
+    return static_cast<unsigned char>(std::lround(encodeSrgb(linear) * 255));
 }
 
 // The picture at `width` x `height`, both at most its own: means over the pixels that a new one touches.

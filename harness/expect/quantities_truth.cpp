@@ -1,24 +1,9 @@
 #include "harness/expect/quantities.h"
+#include "harness/expect/truth_class.h"
 
 namespace crossray {
 
 namespace {
-
-HitClass classOf(ScreenKnowledge knowledge)
-{
-    switch (knowledge) {
-    case ScreenKnowledge::kVisible:
-        return HitClass::kHit;
-    case ScreenKnowledge::kHidden:
-    case ScreenKnowledge::kOffScreen:
-        return HitClass::kUnknown;
-    case ScreenKnowledge::kSky:
-        return HitClass::kMiss;
-    case ScreenKnowledge::kNoRay:
-        break;
-    }
-    return HitClass::kNoRaycast;
-}
 
 PixelAnswer answerTruth(const QuantityInput& input, size_t pixel)
 {

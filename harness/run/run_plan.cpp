@@ -2,6 +2,7 @@
 
 #include "harness/base/hash.h"
 #include "harness/base/text.h"
+#include "harness/case/presets.h"
 #include "harness/compile/compile.h"
 #include "harness/run/environment.h"
 #include "harness/run/source_hash.h"
@@ -18,15 +19,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The presets that the cases of a folder see.
-std::string readPresets(const fs::path& folder)
-{
-    for (fs::path at = fs::weakly_canonical(folder);; at = at.parent_path()) {
-        if (const auto text = readText(at / "presets.toml")) return *text;
-        if (!at.has_relative_path()) return {};
-    }
-}
-
 // Reads each file once, however many sub-cases it has.
 class FileHashes {
   public:
@@ -36,7 +28,7 @@ class FileHashes {
         if (isNew) {
             const fs::path folder = file.parent_path();
             const auto [presets, isNewFolder] = folders_.try_emplace(folder);
-            if (isNewFolder) presets->second = hashBytes(readPresets(folder.empty() ? "." : folder));
+            if (isNewFolder) presets->second = hashBytes(readText(findPresetsFile(folder)).value_or(""));
             place->second = Hasher().addString(readText(file).value_or("")).addHash(presets->second).finish();
         }
         return place->second;
