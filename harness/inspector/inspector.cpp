@@ -159,9 +159,9 @@ Reply Inspector::page() const
 
 Reply Inspector::data(const std::string& piece) const
 {
-    std::optional<std::string> json = pieces_.find(piece);
-    if (!json) return makeErrorReply(404, "there is no such piece of data any more; render again");
-    return {200, std::move(*json)};
+    std::optional<PieceStore::Data> data = pieces_.find(piece);
+    if (!data) return makeErrorReply(404, "there is no such piece of data any more; render again");
+    return {200, std::move(data->bytes), data->isJson ? "application/json" : "application/octet-stream"};
 }
 
 Reply Inspector::controls(const std::string& caseName) const

@@ -6,13 +6,6 @@
 
 namespace crossray {
 
-namespace {
-
-// The wire is this machine's memory: what takes long is packing.
-constexpr int kQuickest = 1;
-
-} // namespace
-
 PieceStore::Names PieceStore::keep(std::string details, std::map<std::string, std::vector<Plane>> planes)
 {
     const std::lock_guard lock(mutex_);
@@ -20,14 +13,14 @@ PieceStore::Names PieceStore::keep(std::string details, std::map<std::string, st
     Names names;
     Render render;
     names.details = fmt::format("case-{}", serial);
-    render.pieces[names.details] = std::make_shared<const Piece>(Piece{"", std::move(details), {}});
+    render.pieces[names.details] = std::make_shared<const Piece>(Piece{std::move(details), {}});
     size_t number = 0;
     for (auto& [source, list] : planes) {
         for (const Plane& plane : list)
             render.bytes += plane.values.size() * sizeof(double);
         const std::string name = fmt::format("planes-{}-{}", serial, number++);
         names.planes[source] = name;
-        render.pieces[name] = std::make_shared<const Piece>(Piece{source, "", std::move(list)});
+        render.pieces[name] = std::make_shared<const Piece>(Piece{"", std::move(list)});
     }
     renders_.push_back(std::move(render));
     size_t bytes = 0;
@@ -40,7 +33,7 @@ PieceStore::Names PieceStore::keep(std::string details, std::map<std::string, st
     return names;
 }
 
-std::optional<std::string> PieceStore::find(const std::string& name) const
+std::optional<PieceStore::Data> PieceStore::find(const std::string& name) const
 {
     std::shared_ptr<const Piece> piece;
     {
@@ -51,8 +44,9 @@ std::optional<std::string> PieceStore::find(const std::string& name) const
         }
     }
     if (!piece) return std::nullopt;
-    if (!piece->json.empty()) return piece->json;
-    return PlaneEncoder(kQuickest).encode(piece->source, piece->planes);
+    if (!piece->json.empty()) return Data{piece->json, true};
+    // The wire is this machine's memory: packing would take longer than the bytes that it saves.
+    return Data{formatPlaneBytes(piece->planes), false};
 }
 
 } // namespace crossray

@@ -27,14 +27,17 @@ class PieceStore {
     };
     // `details` is JSON.
     Names keep(std::string details, std::map<std::string, std::vector<Plane>> planes);
-    // As JSON, packed when it is asked for; nothing when there is none of that name.
-    std::optional<std::string> find(const std::string& name) const;
+    struct Data {
+        std::string bytes;
+        bool isJson = true; // else planes as of formatPlaneBytes()
+    };
+    // Made when it is asked for; nothing when there is none of that name.
+    std::optional<Data> find(const std::string& name) const;
 
   private:
     struct Piece {
-        std::string source; // of planes
-        std::string json;
-        std::vector<Plane> planes;
+        std::string json;          // of details
+        std::vector<Plane> planes; // where that is empty
     };
     struct Render {
         std::map<std::string, std::shared_ptr<const Piece>> pieces; // shared with those who pack one right now

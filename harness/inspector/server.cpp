@@ -27,10 +27,18 @@ constexpr const char* kContentPolicy =
     "default-src 'none'; script-src 'unsafe-inline' data:; style-src 'unsafe-inline'; img-src data: blob:; "
     "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
-void fill(httplib::Response& response, const Reply& reply)
+// By a provider of a known length, which alone goes out as it is: what is set as content, httplib packs by Brotli at
+// its slowest, most of a second for the planes of a 256 x 256 rendering, to save a copy within this machine. A refusal
+// is short, and set: it goes out even when the server is about to end, as a provider's does not.
+void fill(httplib::Response& response, Reply reply)
 {
     response.status = reply.status;
-    response.set_content(reply.body, reply.type);
+    if (reply.status != 200) return response.set_content(reply.body, reply.type);
+    const auto body = std::make_shared<const std::string>(std::move(reply.body));
+    response.set_content_provider(body->size(), reply.type,
+                                  [body](size_t offset, size_t length, httplib::DataSink& sink) {
+                                      return sink.write(body->data() + offset, length);
+                                  });
 }
 
 // Nothing when it is too large, or ends early.
@@ -171,7 +179,7 @@ struct InspectorServer::Impl {
             return HandlerResponse::Handled;
         });
         server.set_error_handler([](const httplib::Request&, httplib::Response& response) {
-            if (!response.body.empty()) return;
+            if (response.has_header("Content-Type")) return; // it has its answer
             const int status = response.status;
             fill(response,
                  makeErrorReply(status, status == 404 ? "there is nothing here" : "the request is not understood"));

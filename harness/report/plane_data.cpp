@@ -7,6 +7,8 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <cstring>
 #include <stdexcept>
 
@@ -32,12 +34,15 @@ std::string shuffleFloats(const Plane& plane)
     return bytes;
 }
 
-std::string deflateBytes(const std::string& bytes, int level)
+constexpr int kPlaneLevel = 5; // zlib's
+
+std::string deflateBytes(const std::string& bytes)
 {
     uLongf size = compressBound(static_cast<uLong>(bytes.size()));
     std::string packed(size, '\0');
-    const int status = compress2(reinterpret_cast<Bytef*>(packed.data()), &size,
-                                 reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uLong>(bytes.size()), level);
+    const int status =
+        compress2(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
+                  static_cast<uLong>(bytes.size()), kPlaneLevel);
     if (status != Z_OK) throw std::logic_error(fmt::format("zlib's compress2 says {}", status));
     packed.resize(size);
     return packed;
@@ -47,7 +52,7 @@ std::string deflateBytes(const std::string& bytes, int level)
 
 std::string packPlane(const Plane& plane)
 {
-    return deflateBytes(shuffleFloats(plane), kPlaneLevel);
+    return deflateBytes(shuffleFloats(plane));
 }
 
 std::string PlaneEncoder::encode(const std::string& source, std::span<const Plane> planes)
@@ -62,7 +67,7 @@ std::string PlaneEncoder::encode(const std::string& source, std::span<const Plan
         if (same != others.end()) {
             entry["same"] = same->source;
         } else {
-            entry["data"] = encodeBase64(deflateBytes(bytes, level_));
+            entry["data"] = encodeBase64(deflateBytes(bytes));
             others.push_back({source, std::move(bytes)});
         }
         list.push_back(std::move(entry));
@@ -70,6 +75,35 @@ std::string PlaneEncoder::encode(const std::string& source, std::span<const Plan
     const int width = planes.empty() ? 0 : planes.front().width, height = planes.empty() ? 0 : planes.front().height;
     const nlohmann::ordered_json json{{"width", width}, {"height", height}, {"planes", list}};
     return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+std::string formatPlaneBytes(std::span<const Plane> planes)
+{
+    static_assert(std::endian::native == std::endian::little);
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const Plane& plane : planes)
+        list.push_back({{"name", plane.name}, {"channels", plane.channels}});
+    const int width = planes.empty() ? 0 : planes.front().width, height = planes.empty() ? 0 : planes.front().height;
+    std::string head = nlohmann::ordered_json{{"width", width}, {"height", height}, {"planes", list}}.dump();
+    head.resize((head.size() + 3) / 4 * 4, ' ');
+    size_t size = sizeof(uint32_t) + head.size();
+    for (const Plane& plane : planes)
+        size += plane.values.size() * sizeof(float);
+    std::string bytes(size, '\0');
+    char* to = bytes.data();
+    const auto headSize = static_cast<uint32_t>(head.size());
+    std::memcpy(to, &headSize, sizeof(headSize));
+    to = std::copy(head.begin(), head.end(), to + sizeof(headSize));
+    for (const Plane& plane : planes) {
+        const size_t pixels = plane.pixelCount(), channels = static_cast<size_t>(plane.channels);
+        for (size_t channel = 0; channel < channels; ++channel) {
+            for (size_t pixel = 0; pixel < pixels; ++pixel, to += sizeof(float)) {
+                const auto value = static_cast<float>(plane.values[pixel * channels + channel]);
+                std::memcpy(to, &value, sizeof(value));
+            }
+        }
+    }
+    return bytes;
 }
 
 std::string encodeCubemap(const Cubemap& cubemap)

@@ -1,5 +1,5 @@
-// Planes as JSON for a page: 32-bit floats, channel after channel, their bytes sorted by significance, deflated, in
-// base64.
+// Planes for a page. Of a report, as JSON: 32-bit floats, channel after channel, their bytes sorted by significance,
+// deflated, in base64. Of a server, as bytes: the floats as they are.
 #pragma once
 
 #include "harness/base/plane.h"
@@ -12,13 +12,9 @@
 
 namespace crossray {
 
-inline constexpr int kPlaneLevel = 5;
-
 // Remembers which planes of a case have been written, so that an answer with the same bits as another's is a reference.
 class PlaneEncoder {
   public:
-    // `level`: zlib's, from 1, quick, to 9, small.
-    explicit PlaneEncoder(int level = kPlaneLevel) : level_(level) {}
     // {"width":..,"height":..,"planes":[{"name":..,"channels":..,"data":BASE64 or "same":SOURCE}]}
     std::string encode(const std::string& source, std::span<const Plane> planes);
     // Takes the last encode() back: what it made is not part of the report.
@@ -29,9 +25,13 @@ class PlaneEncoder {
         std::string source;
         std::string bytes;
     };
-    int level_;
     std::map<std::string, std::vector<Written>> written_; // by the plane's name
 };
+
+// A head and the floats: uint32, the size of the head in bytes, a multiple of 4; the head, JSON that blanks may follow,
+// {"width":..,"height":..,"planes":[{"name":..,"channels":..}]}; of each plane its 32-bit floats, channel after
+// channel. All little-endian.
+std::string formatPlaneBytes(std::span<const Plane> planes);
 
 // {"size":..,"levels":[BASE64]}: each level as a plane of the six faces below one another.
 std::string encodeCubemap(const Cubemap& cubemap);

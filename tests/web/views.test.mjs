@@ -4,7 +4,7 @@ import { deflateSync } from 'node:zlib';
 import { acceptCommand, knownFailureToml, quoteForShell, traceCommand } from '../../harness/report/web/commands.js';
 import { choose } from '../../harness/report/web/choose.js';
 import { divergingTable, nanColor, plusInfinityColor, sequentialTable } from '../../harness/report/web/colors.js';
-import { compareDisplay, compareMask, decidableMask, measure, Plane, rankErrors, unpackFloats } from '../../harness/report/web/planes.js';
+import { compareDisplay, compareMask, decidableMask, measure, Plane, planesFromBytes, rankErrors, unpackFloats } from '../../harness/report/web/planes.js';
 import { formatHash, kDefaults, parseHash } from '../../harness/report/web/state.js';
 import { drawPlane, resolveView } from '../../harness/report/web/views.js';
 
@@ -23,6 +23,17 @@ test('floats come back bit by bit', async () => {
   for (let byte = 0; byte < 4; ++byte) for (let i = 0; i < 5; ++i) sorted[byte * 5 + i] = bytes[i * 4 + byte];
   const back = await unpackFloats(deflateSync(sorted).toString('base64'));
   assert.deepEqual(Buffer.from(back.buffer), bytes);
+});
+
+test('planes of a server are read as they lie', () => {
+  const head = Buffer.from('{"width":2,"height":1,"planes":[{"name":"A","channels":1},{"name":"B","channels":2}]}  '.padEnd(88));
+  const size = Buffer.alloc(4);
+  size.writeUInt32LE(head.length);
+  const values = Float32Array.from([1, -0, NaN, Infinity, 1e-45, 6]);
+  const { buffer, byteOffset, length } = Buffer.concat([size, head, Buffer.from(values.buffer)]);
+  const piece = planesFromBytes(buffer.slice(byteOffset, byteOffset + length));
+  assert.deepEqual(piece.planes.map(({ name, channels, floats }) => [name, channels, ...floats]), [['A', 1, 1, -0], ['B', 2, NaN, Infinity, values[4], 6]]);
+  assert.deepEqual([piece.width, piece.height], [2, 1]);
 });
 
 test('the sequential map grows lighter at every step, the diverging one darker both ways', () => {

@@ -55,6 +55,7 @@ export async function loadDetails(item) {
 const unpacked = new WeakMap(); // entry of a piece -> promise of its floats
 
 async function floatsOf(item, entry, depth = 0) {
+  if (entry.floats) return entry.floats; // they came unpacked
   if (!unpacked.has(entry)) {
     unpacked.set(entry, entry.data !== undefined ? unpackFloats(entry.data) : (async () => {
       const other = await loadPiece(item.planes[entry.same]);

@@ -1,5 +1,6 @@
 // The inspector: what the page asks the server for. Of renders and of traces the newest counts; one of each is on its way.
 import { takePiecesFrom } from 'crossray/data.js';
+import { planesFromBytes } from 'crossray/planes.js';
 import { parametersOf, parseParameters } from 'crossray/parameters.js';
 import { createLivePanel } from 'crossray/live_panel.js';
 import { createServer, Refused } from 'crossray/server.js';
@@ -15,7 +16,10 @@ const kLong = 400; // milliseconds after which progress is shown
 export function createLive(index, hooks) {
   const server = createServer(index.token, { gone: (reason) => panel.lost(reason), back: recover });
   const panel = createLivePanel(index, { ...hooks, backends, cancel: () => server.request('/cancel', {}).catch(() => {}), save });
-  takePiecesFrom((name) => server.request(`/data/${encodeURIComponent(name)}`));
+  takePiecesFrom(async (name) => {
+    const answer = await server.request(`/data/${encodeURIComponent(name)}`);
+    return answer instanceof ArrayBuffer ? planesFromBytes(answer) : answer;
+  });
 
   let caseName = '';
   let controls = [];

@@ -86,6 +86,7 @@ export function createLivePanel(index, hooks) {
       const each = Object.entries(times?.backends ?? {}).map(([backend, ms]) => `${backend} ${milliseconds(ms)}`);
       traceStatus.textContent = `ray drawn after ${milliseconds(seen)}${each.length > 0 ? ` (${each.join(', ')})` : ''}`;
       traceStatus.dataset.seen = seen.toFixed(1);
+      traceStatus.dataset.traces = String(Number(traceStatus.dataset.traces ?? 0) + 1);
     },
     failed(reason) {
       if (reason === '') return;

@@ -29,6 +29,7 @@ let model = { item: null, details: null, planesOf: new Map() };
 let shown = null;
 let picture = { mask: null, errors: null, rank: [] };
 let trace = null;
+let drawnTrace = []; // what the panel of the trace was last drawn from
 
 const store = createStore(react);
 const state = () => store.get();
@@ -199,6 +200,11 @@ async function drawTraceOfPixel() {
   document.body.classList.toggle('no-planes', !live && !shown.actual && !shown.expected);
   panes.setOverlay({ worst: shown.actual && worstPixel(), pixel: x >= 0 ? [x, y] : null, trace, step });
   if (!live) drawCommands(byId('commands'), { item, details: model.details, shown, index });
+  // In the inspector a trace stays until the next has come; it is not drawn anew with each rendering.
+  const drawing = live && trace ? [trace, step, asked.error, ...live.traceBackends(shown)] : [];
+  const isDrawn = drawing.length > 0 && drawing.length === drawnTrace.length && drawing.every((each, i) => each === drawnTrace[i]);
+  drawnTrace = drawing;
+  if (isDrawn) return;
   drawRecord(byId('record'), trace, step);
   drawTracePanel(byId('trace'), { item, shown, x, y, trace, step, index, update, added: takeTrace,
     live: live && { backends: index.backends.map((each) => each.name), chosen: live.traceBackends(shown), error: asked?.error ?? '' } });

@@ -47,6 +47,19 @@ export async function unpackFloats(base64) {
   return new Float32Array(bits.buffer);
 }
 
+/** Reads what harness/report/plane_data.h says of formatPlaneBytes(): {width, height, planes: [{name, channels, floats}]}. */
+export function planesFromBytes(buffer) {
+  const headSize = new DataView(buffer).getUint32(0, true);
+  const head = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, headSize)));
+  let at = 4 + headSize;
+  const take = (count) => {
+    const floats = new Float32Array(buffer, at, count);
+    at += 4 * count;
+    return floats;
+  };
+  return { ...head, planes: head.planes.map((entry) => ({ ...entry, floats: take(head.width * head.height * entry.channels) })) };
+}
+
 /** Smallest and largest finite value, and how many are none. `channel` -1: of all. A depth of 0 means "none". */
 export function measure(plane, channel = -1, skipsZero = false) {
   const start = channel < 0 ? 0 : channel * plane.pixels;

@@ -23,7 +23,7 @@ export function createServer(token, hooks) {
     });
     let answer;
     try {
-      answer = await response.json();
+      answer = response.headers.get('Content-Type') === 'application/octet-stream' ? await response.arrayBuffer() : await response.json();
     } catch (error) {
       if (response.ok) throw error; // cut off: as good as no answer
       answer = {};
@@ -50,7 +50,7 @@ export function createServer(token, hooks) {
     }
   }
 
-  /** The JSON of a route; rejects with Refused, or with another error where there was no answer. */
+  /** The JSON of a route, or its bytes; rejects with Refused, or with another error where there was no answer. */
   async function request(path, body) {
     try {
       return await ask(path, body);

@@ -126,6 +126,9 @@ function withoutTrace({ item, shown, x, y, index, update, added, live }) {
   ];
 }
 
+// How far down a box's steps are. To ask the table itself costs a layout of the whole page.
+const scrolledTo = new WeakMap();
+
 /**
  * `context`: {item, shown, x, y, trace (or null), step, index, update, added(trace), live}. `live`, in the inspector:
  * {backends: names, chosen: those that are traced, error}.
@@ -136,14 +139,13 @@ export function drawTracePanel(box, context) {
   const title = h('h2', {}, at[0] >= 0 ? `Trace of pixel ${at.join(', ')}` : 'Trace');
   const beside = live ? besideSelect({ ...live, update }) : '';
   if (!trace) return redraw(box, h('div', { class: 'trace-head' }, title, beside), withoutTrace(context));
-  const scrolled = box.querySelector('.steps-box')?.scrollTop ?? 0;
   const hasSteps = trace.backends.some((record) => record.steps.length > 0);
   const choose = (value) => update({ step: value });
-  const table = hasSteps && h('div', { class: 'steps-box', tabindex: '0', role: 'region', 'aria-label': 'Steps' }, stepTable(trace, step, choose));
+  const table = hasSteps && h('div', { class: 'steps-box', tabindex: '0', role: 'region', 'aria-label': 'Steps', onscroll: (event) => scrolledTo.set(box, event.target.scrollTop) }, stepTable(trace, step, choose));
   title.append(h('span', { class: 'dim' }, ' · diamond: start; dot: skips a cell; square: looks closer; ring: hit; cross: none'));
   redraw(box, h('div', { class: 'trace-head' }, title, beside), h('div', { class: 'trace-facts' }, factLines(trace), verdict(trace)),
     hasSteps && h('div', { class: 'trace-body' }, table, depthChart(trace, step, choose) ?? ''));
   if (!hasSteps) return;
-  table.scrollTop = scrolled;
+  if (scrolledTo.get(box) > 0) table.scrollTop = scrolledTo.get(box);
   table.querySelector('tr.shown')?.scrollIntoView({ block: 'nearest' });
 }

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -57,6 +58,27 @@ class InspectorFixture : public testing::Test {
     }
 
     static Json parse(const Reply& reply) { return Json::parse(reply.body); }
+    // The head of a piece of planes, each with its floats' bits as "data".
+    static Json parsePlanes(const Reply& reply)
+    {
+        EXPECT_EQ(reply.status, 200) << reply.body;
+        EXPECT_EQ(reply.type, "application/octet-stream");
+        const auto wordAt = [&](size_t at) {
+            uint32_t word = 0;
+            if (at + sizeof(word) <= reply.body.size()) std::memcpy(&word, reply.body.data() + at, sizeof(word));
+            return word;
+        };
+        size_t at = sizeof(uint32_t) + wordAt(0);
+        Json json = Json::parse(reply.body.substr(sizeof(uint32_t), wordAt(0)));
+        for (Json& plane : json["planes"]) {
+            const size_t count =
+                json["width"].get<size_t>() * json["height"].get<size_t>() * plane["channels"].get<size_t>();
+            for (size_t i = 0; i < count; ++i, at += sizeof(uint32_t))
+                plane["data"].push_back(wordAt(at));
+        }
+        EXPECT_EQ(at, reply.body.size());
+        return json;
+    }
     static std::string question(const std::string& testCase, const Json& more = Json::object())
     {
         Json json{{"case", testCase}, {"parameters", Json::object()}, {"backends", {"cpu64"}}};

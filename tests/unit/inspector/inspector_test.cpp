@@ -50,13 +50,13 @@ TEST_F(InspectorTest, rendersAsTheFileSays)
     EXPECT_EQ(json["item"]["results"][0]["verdict"], "pass");
     EXPECT_EQ(json["item"]["planes"], json["planes"]);
     EXPECT_TRUE(json["milliseconds"]["backends"].contains("cpu32"));
-    const Json planes = parse(inspector_->data(json["planes"]["cpu64"]));
+    const Json planes = parsePlanes(inspector_->data(json["planes"]["cpu64"]));
     EXPECT_EQ(planes["width"], 16);
     std::vector<std::string> names;
     for (const Json& plane : planes["planes"])
         names.push_back(plane["name"]);
     EXPECT_EQ(names, (std::vector<std::string>{"RayDirWS", "HitSuccess"}));
-    EXPECT_EQ(parse(inspector_->data(json["planes"]["expected"]))["planes"][0]["name"], "RayDirWS@0");
+    EXPECT_EQ(parsePlanes(inspector_->data(json["planes"]["expected"]))["planes"][0]["name"], "RayDirWS@0");
     const Json details = parse(inspector_->data(json["item"]["details"]));
     EXPECT_EQ(details[0]["name"], "floor");
     EXPECT_EQ(details[0]["backends"][0]["expectations"][0]["output"], "RayDirWS");
@@ -67,8 +67,8 @@ TEST_F(InspectorTest, aChangedKeyIsAsIfTheFileSaidSo)
 {
     const auto hits = [&](const Json& parameters) {
         const Json json = parse(inspector_->render(question("floor", {{"parameters", parameters}})));
-        const Json planes = parse(inspector_->data(json["planes"]["cpu64"]));
-        return std::pair(planes["width"].get<int>(), planes["planes"][1]["data"].get<std::string>());
+        const Json planes = parsePlanes(inspector_->data(json["planes"]["cpu64"]));
+        return std::pair<int, Json>(planes["width"], planes["planes"][1]["data"]);
     };
     const auto before = hits(Json::object());
     const auto moved = hits({{"camera.eye.0", 0.7}, {"projection.depth_bias", 0.1}});
@@ -87,7 +87,7 @@ TEST_F(InspectorTest, aChangedKeyIsAsIfTheFileSaidSo)
     setup_.selected = readCaseFile(folder_ / "moved.toml");
     Inspector other(setup_);
     const Json json = parse(other.render(question("moved")));
-    EXPECT_EQ(parse(other.data(json["planes"]["cpu64"]))["planes"][1]["data"], moved.second);
+    EXPECT_EQ(parsePlanes(other.data(json["planes"]["cpu64"]))["planes"][1]["data"], moved.second);
 }
 
 TEST_F(InspectorTest, whatIsKeptIsWhatWouldBeMadeAnew)
@@ -98,8 +98,8 @@ TEST_F(InspectorTest, whatIsKeptIsWhatWouldBeMadeAnew)
     for (const Json& parameters : changes) {
         const auto pieces = [&](Inspector& inspector) {
             const Json json = parse(inspector.render(question("floor", {{"parameters", parameters}})));
-            return parse(inspector.data(json["planes"]["cpu64"])).dump() +
-                   parse(inspector.data(json["planes"]["expected"])).dump();
+            return parsePlanes(inspector.data(json["planes"]["cpu64"])).dump() +
+                   parsePlanes(inspector.data(json["planes"]["expected"])).dump();
         };
         Inspector fresh(setup_);
         EXPECT_EQ(pieces(*inspector_), pieces(fresh)) << parameters;
@@ -311,7 +311,7 @@ TEST_F(InspectorTest, aChangedSetIsSavedAsACaseThatCanBeAskedFor)
     EXPECT_EQ(saved.camera.fovYDegrees, 45);
     const auto planes = [&](const std::string& body) {
         const Json answer = parse(inspector_->render(body));
-        return parse(inspector_->data(answer["planes"]["cpu64"])).dump();
+        return parsePlanes(inspector_->data(answer["planes"]["cpu64"])).dump();
     };
     EXPECT_EQ(planes(question("narrow")),
               planes(question("floor", {{"parameters", {{"camera.fov", 45}, {"scene.size.0", 24}}}})));

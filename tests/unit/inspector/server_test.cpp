@@ -108,6 +108,24 @@ TEST_F(ServerTest, answersWhoHasTheToken)
     EXPECT_EQ(traced->status, 200);
 }
 
+// Packing an answer took ten times as long as the shader.
+TEST_F(ServerTest, sendsAnswersUnpackedWhateverABrowserAccepts)
+{
+    const auto rendered = post("/render", question("floor"));
+    ASSERT_TRUE(rendered);
+    const Json json = Json::parse(rendered->body);
+    const std::string planes = json["planes"]["cpu64"], details = json["item"]["details"];
+    for (const std::string& route :
+         {std::string("/"), "/data/" + planes, "/data/" + details, std::string("/progress")}) {
+        const std::string answer =
+            say(fmt::format("GET {}{} HTTP/1.1\r\nHost: {}\r\nAccept-Encoding: gzip, deflate, br, zstd\r\n\r\n", route,
+                            token_, host()));
+        EXPECT_EQ(statusOf(answer), 200) << route;
+        EXPECT_EQ(answer.find("Content-Encoding"), std::string::npos) << route;
+        EXPECT_NE(answer.find("Content-Length: "), std::string::npos) << route;
+    }
+}
+
 TEST_F(ServerTest, refusesWhoHasNoTokenOrAWrongOne)
 {
     const std::string wrong = std::string(32, '0'), longer = std::string(kToken) + "0";
