@@ -140,3 +140,13 @@ if(TARGET crossray)
   set_tests_properties(scale.aSlurmArrayThatLosesANodeMergesToTheUnshardedRun
                        PROPERTIES TIMEOUT 400 SKIP_RETURN_CODE 77 ENVIRONMENT CROSSRAY_CACHE=${CMAKE_BINARY_DIR}/cli-test-cache)
 endif()
+
+# Files and requests of any bytes: libFuzzer targets, built apart by clang. Skipped, with the reason, where that is missing.
+add_test(NAME fuzz.build COMMAND ${CMAKE_SOURCE_DIR}/tests/fuzz/smoke.sh build)
+set_tests_properties(fuzz.build PROPERTIES FIXTURES_SETUP fuzz_targets TIMEOUT 1500 SKIP_RETURN_CODE 77)
+file(GLOB fuzz_targets CONFIGURE_DEPENDS RELATIVE ${CMAKE_SOURCE_DIR}/tests/fuzz/targets tests/fuzz/targets/*_target.cpp)
+foreach(file ${fuzz_targets})
+  string(REPLACE _target.cpp "" target ${file})
+  add_test(NAME fuzz.smoke_${target} COMMAND ${CMAKE_SOURCE_DIR}/tests/fuzz/smoke.sh ${target})
+  set_tests_properties(fuzz.smoke_${target} PROPERTIES FIXTURES_REQUIRED fuzz_targets TIMEOUT 300 SKIP_RETURN_CODE 77)
+endforeach()

@@ -191,7 +191,7 @@ std::vector<Case> readCaseFile(const fs::path& file, const std::map<std::string,
     for (const auto& [path, text] : overrides) {
         const Node value = parseOverride(path, text);
         setByPath(root, path, value.place, value);
-        std::erase_if(parameters, [&](const Parameter& parameter) { return parameter.path == path; });
+        std::erase_if(parameters, [&path = path](const Parameter& parameter) { return parameter.path == path; });
     }
     return buildProduct(root, parameters, file, presets.get());
 }

@@ -1,5 +1,6 @@
 #include "harness/cli/browser.h"
 #include "harness/cli/verbs.h"
+#include "harness/inspector/inspector.h"
 #include "harness/inspector/server.h"
 #include "harness/run/environment.h"
 

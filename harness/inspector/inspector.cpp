@@ -28,13 +28,6 @@ std::string dump(const Json& json)
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-std::string onOneLine(std::string_view text)
-{
-    std::string line(text.substr(0, text.find_last_not_of('\n') + 1));
-    std::replace(line.begin(), line.end(), '\n', ' ');
-    return line;
-}
-
 // What went wrong as a status: the request's form, what it names, what is there already, or what it asks for.
 template <typename Answer>
 Reply answerOrRefuse(const Answer& answer)
@@ -82,11 +75,6 @@ RunResult describeSession(const InspectorSetup& setup, const std::vector<const C
 }
 
 } // namespace
-
-Reply makeErrorReply(int status, std::string_view text)
-{
-    return {status, dump(Json{{"error", onOneLine(text)}})};
-}
 
 Inspector::Inspector(InspectorSetup setup) : setup_(std::move(setup)), renderer_(setup_.live)
 {

@@ -5,6 +5,7 @@
 #include "harness/inspector/live_render.h"
 #include "harness/inspector/piece_store.h"
 #include "harness/inspector/question.h"
+#include "harness/inspector/routes.h"
 
 #include <filesystem>
 #include <map>
@@ -15,14 +16,6 @@
 
 namespace crossray {
 
-struct Reply {
-    int status = 200;
-    std::string body;
-    std::string type = "application/json";
-};
-// {"error": text}, on one line.
-Reply makeErrorReply(int status, std::string_view text);
-
 struct InspectorSetup {
     LiveSetup live;
     std::filesystem::path cases; // the case folder
@@ -31,24 +24,22 @@ struct InspectorSetup {
     std::vector<std::string> commandLine;
 };
 
-inline constexpr size_t kMostBodyBytes = 64 << 10;
 inline constexpr int64_t kMostPixels = int64_t{2048} * 2048; // of an image whose size a request sets
 
-// Thread-safe. No member throws on account of what a request says.
-class Inspector {
+// Thread-safe.
+class Inspector : public InspectorRoutes {
   public:
     explicit Inspector(InspectorSetup setup);
 
-    Reply page() const;
-    Reply data(const std::string& piece) const;
-    Reply controls(const std::string& caseName) const;
-    Reply render(const std::string& body);
-    Reply trace(const std::string& body);
-    Reply save(const std::string& body);
-    Reply progress() const;
-    Reply cancel();
-    // Ends the work in progress and takes no other: whoever waits has an answer.
-    void close() { queue_.close(); }
+    Reply page() const override;
+    Reply data(const std::string& piece) const override;
+    Reply controls(const std::string& caseName) const override;
+    Reply render(const std::string& body) override;
+    Reply trace(const std::string& body) override;
+    Reply save(const std::string& body) override;
+    Reply progress() const override;
+    Reply cancel() override;
+    void close() override { queue_.close(); }
 
     LiveRenderer& renderer() { return renderer_; }
 

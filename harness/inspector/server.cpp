@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <optional>
+#include <string>
 #include <sys/random.h>
 #include <sys/socket.h>
 #include <thread>
@@ -94,7 +96,7 @@ bool isSameToken(std::string_view given, std::string_view token)
 }
 
 struct InspectorServer::Impl {
-    Impl(Inspector& shown, std::string secret) : inspector(shown), token(std::move(secret)) {}
+    Impl(InspectorRoutes& served, std::string secret) : routes(served), token(std::move(secret)) {}
 
     // Before anything else is looked at, the body included.
     std::optional<Reply> refuse(const httplib::Request& request) const
@@ -140,17 +142,17 @@ struct InspectorServer::Impl {
                 fill(response, answer(request));
             });
         };
-        get("/", [this](const httplib::Request&) { return inspector.page(); });
+        get("/", [this](const httplib::Request&) { return routes.page(); });
         get("/data/([a-z0-9-]{1,60})",
-            [this](const httplib::Request& request) { return inspector.data(request.matches[1]); });
+            [this](const httplib::Request& request) { return routes.data(request.matches[1]); });
         get("/controls",
-            [this](const httplib::Request& request) { return inspector.controls(request.get_param_value("case")); });
-        get("/progress", [this](const httplib::Request&) { return inspector.progress(); });
+            [this](const httplib::Request& request) { return routes.controls(request.get_param_value("case")); });
+        get("/progress", [this](const httplib::Request&) { return routes.progress(); });
         get("/alive", [](const httplib::Request&) { return Reply{200, "{\"alive\":true}"}; });
-        post("/render", [this](const std::string& body) { return inspector.render(body); });
-        post("/trace", [this](const std::string& body) { return inspector.trace(body); });
-        post("/save", [this](const std::string& body) { return inspector.save(body); });
-        post("/cancel", [this](const std::string&) { return inspector.cancel(); });
+        post("/render", [this](const std::string& body) { return routes.render(body); });
+        post("/trace", [this](const std::string& body) { return routes.trace(body); });
+        post("/save", [this](const std::string& body) { return routes.save(body); });
+        post("/cancel", [this](const std::string&) { return routes.cancel(); });
     }
 
     void configure()
@@ -189,15 +191,15 @@ struct InspectorServer::Impl {
         });
     }
 
-    Inspector& inspector;
+    InspectorRoutes& routes;
     const std::string token;
     httplib::Server server;
     int port = 0;
     std::thread thread;
 };
 
-InspectorServer::InspectorServer(Inspector& inspector, std::string token, int port)
-    : impl_(std::make_unique<Impl>(inspector, std::move(token)))
+InspectorServer::InspectorServer(InspectorRoutes& routes, std::string token, int port)
+    : impl_(std::make_unique<Impl>(routes, std::move(token)))
 {
     impl_->configure();
     impl_->addRoutes();
@@ -239,7 +241,7 @@ void InspectorServer::stop()
 {
     if (!impl_->thread.joinable()) return;
     impl_->server.stop();
-    impl_->inspector.close();
+    impl_->routes.close();
     impl_->thread.join();
 }
 

@@ -2,7 +2,7 @@
 // must bear, and no file of the disk behind any route.
 #pragma once
 
-#include "harness/inspector/inspector.h"
+#include "harness/inspector/routes.h"
 
 #include <memory>
 #include <string>
@@ -21,7 +21,7 @@ bool isSameToken(std::string_view given, std::string_view token);
 class InspectorServer {
   public:
     // Listens from here on; port 0: a free one. Throws EnvironmentError when it cannot be had.
-    InspectorServer(Inspector& inspector, std::string token, int port);
+    InspectorServer(InspectorRoutes& routes, std::string token, int port);
     ~InspectorServer(); // stops
     InspectorServer(const InspectorServer&) = delete;
     InspectorServer& operator=(const InspectorServer&) = delete;

@@ -618,7 +618,7 @@ std::vector<std::string> listRunJsonFields()
     run.compilers["glslang"];
     run.parts.emplace_back().devices["lavapipe"];
     CaseResult& testCase = run.cases.emplace_back();
-    testCase.conditioning.emplace().outputs.emplace_back().worst.emplace();
+    testCase.conditioning.emplace().outputs.emplace_back().worst = ConditioningResult::Worst{};
     BackendResult& result = testCase.backends.emplace_back();
     ExpectationResult& expectation = result.expectations.emplace_back();
     expectation.judged = true;

@@ -40,15 +40,6 @@ class FileHashes {
 
 } // namespace
 
-std::string hashNames(std::vector<std::string> names)
-{
-    std::sort(names.begin(), names.end());
-    Hasher hasher;
-    for (const std::string& name : names)
-        hasher.addString(name);
-    return hasher.finish().hex();
-}
-
 RunPlan describeSelection(const SelectedNames& selected)
 {
     RunPlan plan;
@@ -118,28 +109,6 @@ std::string hashPlan(const RunPlan& plan)
         .addString(plan.options)
         .finish()
         .hex();
-}
-
-std::vector<std::string> comparePlans(const RunPlan& first, const RunPlan& second)
-{
-    std::vector<std::string> differences;
-    if (first.names != second.names || first.cases != second.cases) {
-        differences.push_back(fmt::format("other cases are selected ({} against {})", first.cases, second.cases));
-    } else if (first.contents != second.contents) {
-        differences.push_back("the files of the cases differ");
-    }
-    if (first.shaders != second.shaders) differences.push_back("the shaders differ");
-    if (first.harness != second.harness) {
-        differences.push_back(fmt::format("the harness differs ({} against {})", first.harness, second.harness));
-    }
-    if (first.options != second.options) {
-        differences.push_back(fmt::format("the options differ ({} against {})", first.options, second.options));
-    }
-    if (first.partition != second.partition) {
-        differences.push_back(
-            fmt::format("the cases are parted otherwise ({} against {})", first.partition, second.partition));
-    }
-    return differences;
 }
 
 } // namespace crossray

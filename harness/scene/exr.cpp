@@ -143,7 +143,8 @@ std::vector<Part> readParts(const std::filesystem::path& file)
         std::string reason = error.what();
         if (const size_t named = reason.find("\". "); named != std::string::npos)
             reason.erase(0, named + 3); // the file
-        std::replace(reason.begin(), reason.end(), '\n', ' ');
+        std::replace_if(
+            reason.begin(), reason.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
         throw InputError(position, fmt::format("truncated or damaged ({}); allowed: a whole OpenEXR file", reason));
     }
 }

@@ -5,7 +5,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
+#include <utility>
 
 namespace crossray {
 
@@ -18,6 +21,41 @@ constexpr uint32_t kMultiPartFlag = 0x1000;
 constexpr size_t kMaxName = 255;
 // Bytes of pixels that one byte of a file can stand for: zlib ends near 1000, nothing real comes near this.
 constexpr long long kMaxCompression = 4096;
+
+// Bytes of the types of one size. The library reads as many whatever the attribute says that it has: where the two
+// differ, it would take for sizes what was not held against any bound here.
+constexpr std::array<std::pair<std::string_view, uint32_t>, 24> kFixedSizes = {{
+    {"box2f", 16},
+    {"box2i", 16},
+    {"chromaticities", 32},
+    {"compression", 1},
+    {"deepImageState", 1},
+    {"double", 8},
+    {"envmap", 1},
+    {"float", 4},
+    {"int", 4},
+    {"keycode", 28},
+    {"lineOrder", 1},
+    {"m33d", 72},
+    {"m33f", 36},
+    {"m44d", 128},
+    {"m44f", 64},
+    {"rational", 8},
+    {"tiledesc", 9},
+    {"timecode", 8},
+    {"v2d", 16},
+    {"v2f", 8},
+    {"v2i", 8},
+    {"v3d", 24},
+    {"v3f", 12},
+    {"v3i", 12},
+}};
+
+bool isPrintable(std::string_view text)
+{
+    return std::none_of(text.begin(), text.end(),
+                        [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
+}
 
 struct PartHeader {
     long long width = 0;
@@ -49,6 +87,7 @@ class HeaderReader {
         if (end == std::string_view::npos) fail("truncated inside its header; allowed: a whole OpenEXR file");
         if (end - at_ > kMaxName) fail("damaged header: a name of more than 255 bytes; allowed: a whole OpenEXR file");
         const std::string_view name = bytes_.substr(at_, end - at_);
+        checkName(name);
         at_ = end + 1;
         return name;
     }
@@ -61,8 +100,10 @@ class HeaderReader {
             if (name.empty()) return !first;
             const std::string_view type = takeName();
             const std::string_view value = take(takeInteger());
+            checkSize(name, type, value);
             if (name == "dataWindow" && type == "box2i") readWindow(value, part);
-            if (name == "channels" && type == "chlist") countChannels(value, part);
+            if (type == "chlist") countChannels(value, part); // under any name: its end is where the library stops
+            if (name == "name") checkName(value);
             if (name == "type") part.flat = value == "scanlineimage";
         }
     }
@@ -76,6 +117,41 @@ class HeaderReader {
     }
 
   private:
+    // Names are told in messages.
+    void checkName(std::string_view name) const
+    {
+        if (!isPrintable(name)) fail("damaged header: a name with control characters; allowed: a whole OpenEXR file");
+    }
+
+    // Whether the library reads just these bytes of the attribute.
+    void checkSize(std::string_view name, std::string_view type, std::string_view value) const
+    {
+        const auto fixed = std::find_if(kFixedSizes.begin(), kFixedSizes.end(),
+                                        [&](const auto& entry) { return entry.first == type; });
+        bool isWhole = fixed == kFixedSizes.end() || value.size() == fixed->second;
+        if (type == "floatvector") isWhole = value.size() % 4 == 0;
+        if (type == "stringvector") isWhole = holdsStrings(value);
+        if (type == "preview") {
+            const uint64_t pixels = value.size() < 8 ? 0 : uint64_t{integerAt(value, 0)} * integerAt(value, 4);
+            isWhole = value.size() >= 8 && pixels <= value.size() && value.size() == 8 + 4 * pixels;
+        }
+        // Packed, and of any size once it is unpacked.
+        if (type == "idmanifest") fail("an ID manifest, as deep images have them; allowed: flat scan lines");
+        if (!isWhole)
+            fail(fmt::format("damaged header: \"{}\" has {} bytes, which is no {}; allowed: a whole OpenEXR file", name,
+                             value.size(), type));
+    }
+
+    // Each behind its length.
+    static bool holdsStrings(std::string_view value)
+    {
+        while (!value.empty()) {
+            if (value.size() < 4 || integerAt(value, 0) > value.size() - 4) return false;
+            value.remove_prefix(4 + size_t{integerAt(value, 0)});
+        }
+        return true;
+    }
+
     void readWindow(std::string_view value, PartHeader& part)
     {
         if (value.size() != 16) fail("damaged header: its data window is no box; allowed: a whole OpenEXR file");
@@ -98,6 +174,7 @@ class HeaderReader {
             const size_t end = value.find('\0', at);
             if (end == std::string_view::npos || value.size() - end < 17)
                 fail("damaged header: its channel list has no end; allowed: a whole OpenEXR file");
+            checkName(value.substr(at, end - at));
             if (integerAt(value, end + 9) != 1 || integerAt(value, end + 13) != 1)
                 fail(fmt::format("channel \"{}\" is subsampled; allowed: one value a pixel",
                                  value.substr(at, end - at)));
@@ -105,6 +182,8 @@ class HeaderReader {
                 fail(fmt::format("more than {0} channels; allowed: 1 to {0}", kMaxExrChannels));
             at = end + 17;
         }
+        if (at + 1 != value.size())
+            fail("damaged header: its channel list has no end, or ends early; allowed: a whole OpenEXR file");
     }
 
     const std::filesystem::path& file_;

@@ -90,6 +90,8 @@ Json parseJson(const std::filesystem::path& file)
         const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
         const int line = 1 + static_cast<int>(std::count(text.begin(), end, '\n'));
         throw InputError({file.string(), line, 0}, "not valid JSON; allowed: one JSON table");
+    } catch (const Json::out_of_range&) { // 1e999
+        throw InputError({file.string(), 0, 0}, "a number is beyond what a double holds; allowed: finite numbers");
     }
 }
 

@@ -178,6 +178,50 @@ TEST_F(Exr, HugeHeadersAreRejectedBeforeAnythingIsAllocated)
     EXPECT_NE(messageOf(bytes).find("truncated inside its header"), std::string::npos);
 }
 
+// The library reads as many bytes as a type has, whatever the file says: then it takes others for the next attribute's
+// length.
+TEST_F(Exr, AttributesHaveTheSizeOfTheirType)
+{
+    const std::string good = sampleFile(folder_);
+    for (const auto& [name, type] :
+         {std::pair{"displayWindow", "box2i"}, {"pixelAspectRatio", "float"}, {"lineOrder", "lineOrder"}}) {
+        for (const int change : {-1, 1}) {
+            std::string bytes = good;
+            const size_t value = valueOf(bytes, name, type);
+            putInteger(bytes, value - 4, bytes[value - 4] + change);
+            if (change > 0)
+                bytes.insert(value, 1, '\0');
+            else
+                bytes.erase(value, 1);
+            EXPECT_NE(messageOf(bytes).find("which is no"), std::string::npos) << name << ": " << messageOf(bytes);
+        }
+    }
+    std::string early = good; // bytes behind the end of the channel list
+    const size_t list = valueOf(good, "channels", "chlist");
+    putInteger(early, list - 4, early[list - 4] + 3);
+    early.insert(list + static_cast<unsigned char>(good[list - 4]), 3, 'x');
+    EXPECT_NE(messageOf(early).find("its channel list"), std::string::npos) << messageOf(early);
+    early = good; // and a list that has no end, under another name
+    const std::string other("others\0chlist\0\22\0\0\0R\0\2\0\0\0\0\0\0\0\1\0\0\0\1\0\0\0", 36);
+    early.insert(8, other);
+    EXPECT_NE(messageOf(early).find("its channel list"), std::string::npos) << messageOf(early);
+    std::string strings = good; // a list of strings of which one claims two gigabytes
+    const std::string attribute = std::string("views\0stringvector\0\5\0\0\0\1\0\0\x7fx", 29);
+    strings.insert(8, attribute);
+    EXPECT_NE(messageOf(strings).find("\"views\" has 5 bytes"), std::string::npos) << messageOf(strings);
+}
+
+// A message is one line on somebody's terminal.
+TEST_F(Exr, NamesWithControlCharactersAreRefused)
+{
+    for (const std::string name : {"R\nG", "\x1b[2J"}) {
+        std::string bytes = sampleFile(folder_);
+        const size_t at = bytes.find("displayWindow");
+        bytes.replace(at, name.size(), name);
+        EXPECT_NE(messageOf(bytes).find("a name with control characters"), std::string::npos) << messageOf(bytes);
+    }
+}
+
 TEST_F(Exr, EveryTruncationIsAnError)
 {
     const std::string good = sampleFile(folder_);

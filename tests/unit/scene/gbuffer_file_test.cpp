@@ -217,6 +217,8 @@ TEST_F(GBufferFile, TruthOfAnotherSizeOrWithoutItsChannels)
 
 TEST_F(GBufferFile, CameraJson)
 {
+    EXPECT_NE(cameraMessage(replaced(kCameraJson, "\"far\": 100", "\"far\": 1e999")).find("beyond what a double holds"),
+              std::string::npos);
     EXPECT_EQ(cameraMessage(kCameraJson), "");
     const Camera camera = readCameraJson(folder_ / "camera.json");
     EXPECT_EQ(camera.width, 40);
