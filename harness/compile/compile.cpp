@@ -28,7 +28,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 // To be raised with every change of what this module makes of the same source.
-constexpr uint64_t kPipelineVersion = 3;
+constexpr uint64_t kPipelineVersion = 4;
 
 // One file of a closure as it was when the shader was compiled.
 struct ClosureFile {

@@ -221,6 +221,51 @@ std::set<uint32_t> findBindings(const std::vector<uint32_t>& spirv)
     return bindings;
 }
 
+bool loadsWhatItStores(const std::vector<uint32_t>& spirv)
+{
+    std::map<uint32_t, uint32_t> variables; // pointer -> the variable that it points into
+    std::set<uint32_t> loaded, stored;
+    const auto note = [&](std::set<uint32_t>& kind, uint32_t pointer) {
+        if (const auto found = variables.find(pointer); found != variables.end()) kind.insert(found->second);
+    };
+    forEachInstruction(spirv, [&](spv::Op op, std::span<const uint32_t> operands) {
+        switch (op) {
+        case spv::OpVariable:
+        case spv::OpFunctionParameter:
+            requireOperands(operands, 2);
+            variables[operands[1]] = operands[1];
+            break;
+        case spv::OpAccessChain:
+        case spv::OpInBoundsAccessChain:
+        case spv::OpCopyObject:
+            requireOperands(operands, 3);
+            if (const auto found = variables.find(operands[2]); found != variables.end())
+                variables[operands[1]] = found->second;
+            break;
+        case spv::OpLoad:
+            requireOperands(operands, 3);
+            note(loaded, operands[2]);
+            break;
+        case spv::OpStore:
+            requireOperands(operands, 2);
+            note(stored, operands[0]);
+            break;
+        default: { // what is handed on may be read and written there
+            size_t first = operands.size();
+            if (op == spv::OpFunctionCall) first = 3;
+            if (op == spv::OpExtInst) first = 4;
+            if (op == spv::OpCopyMemory || op == spv::OpCopyMemorySized) first = 0;
+            if (op >= spv::OpAtomicLoad && op <= spv::OpAtomicXor) first = op == spv::OpAtomicStore ? 0 : 2;
+            for (size_t i = first; i < operands.size(); ++i) {
+                note(loaded, operands[i]);
+                note(stored, operands[i]);
+            }
+        }
+        }
+    });
+    return std::any_of(loaded.begin(), loaded.end(), [&](uint32_t variable) { return stored.count(variable) > 0; });
+}
+
 size_t countSpirvInstructions(const std::vector<uint32_t>& spirv)
 {
     size_t count = 0;

@@ -38,6 +38,8 @@ std::vector<uint32_t> forbidContraction(const std::vector<uint32_t>& spirv);
 std::vector<uint32_t> allowContraction(const std::vector<uint32_t>& spirv);
 // Numbers of the bindings that the module declares; after optimisation, those that it uses.
 std::set<uint32_t> findBindings(const std::vector<uint32_t>& spirv);
+// Whether some variable is both loaded and stored to (or is handed to a call, which may do both).
+bool loadsWhatItStores(const std::vector<uint32_t>& spirv);
 size_t countSpirvInstructions(const std::vector<uint32_t>& spirv);
 
 // The words of a constant of the given type. Throws InputError that says what is allowed when the value does not fit.

@@ -151,6 +151,9 @@ NaiveShader readNaiveShader(const fs::path& path)
             words >> replaced.file >> replaced.function;
             naive.replaces.push_back(replaced);
             isFails = false;
+        } else if (text.starts_with("On: ")) {
+            naive.backend = text.substr(4);
+            isFails = false;
         } else if (text.starts_with("Fails: ")) {
             naive.fails = text.substr(7);
             isFails = true;

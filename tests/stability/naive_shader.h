@@ -1,8 +1,10 @@
 // A naive form of a shader's function, and the shader tree that has it in the place of the library's.
 //
 // A file of tests/stability/naive/ opens with a comment: a line "// Replaces: FILE FUNCTION" for each function (FILE
-// below shaders/), and "// Fails: SENTENCE", which may go on over the next lines. Then the functions stand, each with
-// the signature that it has in the library; what stands before one (a helper, a constant) goes with it.
+// below shaders/), and "// Fails: SENTENCE", which may go on over the next lines; where
+// drivers part, a line "// On: BACKEND" before that names one that shows it, instead of lavapipe. Then the functions
+// stand, each with the signature that it has in the library; what stands before one (a helper, a constant) goes with
+// it.
 #pragma once
 
 #include <filesystem>
@@ -22,6 +24,7 @@ struct NaiveShader {
     std::vector<ReplacedFunction> replaces;
     std::string fails;
     std::string text;
+    std::string backend = "lavapipe"; // that the cases run on
 };
 
 // Throws InputError: no readable file, a name without its number, a head that lacks one of the two.

@@ -1,4 +1,4 @@
-// A case that a naive shader passes is no case: each situation of cases/stability/ is run on lavapipe with the
+// A case that a naive shader passes is no case: each situation of cases/stability/ is run on one backend with the
 // library's function and with the naive form that people write (naive/NN_*.glsl), and one of its cases must fail with
 // the latter.
 #include "tests/stability/naive_shader.h"
@@ -28,7 +28,6 @@ namespace {
 const fs::path kShaders = fs::path(CROSSRAY_SOURCE_DIR) / "shaders";
 const fs::path kCases = fs::path(CROSSRAY_SOURCE_DIR) / "cases/stability";
 const fs::path kNaive = fs::path(CROSSRAY_SOURCE_DIR) / "tests/stability/naive";
-constexpr const char* kBackend = "lavapipe";
 constexpr double kNaiveTimeoutSeconds = 10; // a loop without an end is as good as a wrong answer
 constexpr int kCores = 2;
 constexpr int kSituations = 64;
@@ -78,18 +77,20 @@ class NaiveForm : public testing::TestWithParam<fs::path> {
         compiler_.reset();
     }
 
-    void SetUp() override
+    // Nothing where it is installed.
+    static std::string whyMissing(const std::string& backend)
     {
         for (const BackendInfo& info : listBackends()) {
-            if (info.name == kBackend && !info.found) GTEST_SKIP() << "not installed: " << info.missing;
+            if (info.name == backend) return info.found ? "" : "not installed: " + info.missing;
         }
+        throw InputError("no such backend: " + backend);
     }
 
-    RunResult runCases(const std::vector<Case>& cases, const fs::path& shaders, std::optional<double> timeout,
-                       int maxFailures)
+    RunResult runCases(const std::vector<Case>& cases, const fs::path& shaders, const std::string& backend,
+                       std::optional<double> timeout, int maxFailures)
     {
         ExecuteOptions options;
-        options.backends = {kBackend};
+        options.backends = {backend};
         options.cores = kCores;
         options.keepGoing = true;
         options.timeoutSeconds = timeout;
@@ -154,17 +155,18 @@ std::string testName(const testing::TestParamInfo<fs::path>& info)
 TEST_P(NaiveForm, isCaughtByTheCasesOfItsSituation)
 {
     const NaiveShader naive = readNaiveShader(GetParam());
+    if (const std::string reason = whyMissing(naive.backend); !reason.empty()) GTEST_SKIP() << reason;
     const std::vector<Case> cases = readSituation(naive);
     ASSERT_FALSE(cases.empty()) << "cases/stability/ has no case " << naive.number << "_*.toml";
 
-    const RunResult sound = runCases(cases, kShaders, {}, 0);
+    const RunResult sound = runCases(cases, kShaders, naive.backend, {}, 0);
     ASSERT_EQ(countVerdict(sound, Verdict::kPass), static_cast<int>(cases.size()))
         << "the library's own form does not pass:\n"
         << describe(sound);
 
     const TemporaryFolder folder("naive");
     ASSERT_NO_THROW(writeNaiveTree(kShaders, naive, folder.path()));
-    const RunResult run = runCases(cases, folder.path(), kNaiveTimeoutSeconds, 1);
+    const RunResult run = runCases(cases, folder.path(), naive.backend, kNaiveTimeoutSeconds, 1);
     EXPECT_GE(countVerdict(run, Verdict::kFail) + countVerdict(run, Verdict::kTimeout), 1)
         << "a naive form passes, so the cases prove nothing. It should fail: " << naive.fails << "\n"
         << describe(run);
@@ -264,6 +266,8 @@ TEST(WriteNaiveTree, replacesOneOverloadWithItsHelpersAndRefusesWhatIsNotThere)
     const NaiveShader naive = write(head, "float h() { return 2.0; }\nvec2 f(vec2 v) { return v * h(); }\n");
     EXPECT_EQ(naive.number, "07");
     EXPECT_EQ(naive.fails, "because it does.");
+    EXPECT_EQ(naive.backend, "lavapipe");
+    EXPECT_EQ(write("// On: osmesa\n" + head, "").backend, "osmesa");
     writeNaiveTree(folder.path() / "shaders", naive, folder.path() / "tree");
     std::ifstream stream(folder.path() / "tree/a/a.glsl");
     std::ostringstream text;

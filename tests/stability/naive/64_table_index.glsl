@@ -1,4 +1,5 @@
 // Replaces: crossray/probe/roughness.glsl computeBuiltInMip
+// On: osmesa
 // Fails: beyond a roughness of 1 the index is past the table's end.
 float computeBuiltInMip(float perceptualRoughness)
 {
