@@ -7,8 +7,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <limits>
+#include <set>
 
 using namespace crossray;
 
@@ -347,4 +350,29 @@ TEST(SweepList, isReadAndRefused)
     EXPECT_NE(refusalOf([&] { read("[[sweep]]\nid = \"a\"\n"); }).find("lacks \"title\""), std::string::npos);
     EXPECT_NE(refusalOf([&] { read("[[sweep]]\nid = 3\n"); }).find("a string is allowed"), std::string::npos);
     EXPECT_NE(refusalOf([&] { read("x = 3\n"); }).find("allowed: [[sweep]]"), std::string::npos);
+}
+
+// `crossray sweep --all -o reports/published/sweeps` has been run since the list was changed.
+TEST(SweepList, isWhatIsPublished)
+{
+    namespace fs = std::filesystem;
+    const fs::path source = CROSSRAY_SOURCE_DIR, folder = source / "reports/published/sweeps";
+    std::ifstream stream(folder / "README.md");
+    const std::string page{std::istreambuf_iterator<char>(stream), {}};
+    std::set<std::string> ids;
+    for (const ListedSweep& sweep : readSweepList(source / "cases/sweeps.toml")) {
+        ids.insert(sweep.id);
+        for (const char* extension : {".svg", ".csv"})
+            EXPECT_TRUE(fs::is_regular_file(folder / (sweep.id + extension))) << sweep.id << extension;
+        const size_t start = page.find("## " + sweep.title + "\n\n![" + sweep.title + "](" + sweep.id + ".svg)\n");
+        ASSERT_NE(start, std::string::npos) << sweep.id;
+        const std::string section = page.substr(start, page.find("\n## ", start) - start);
+        for (const std::string& part : {"`crossray sweep " + sweep.testCase + " ", "(" + sweep.id + ".csv)",
+                                        "\n**Shows.** " + sweep.shows + "\n", "\n**Why.** " + sweep.why + "\n"})
+            EXPECT_NE(section.find(part), std::string::npos) << part << "\n" << section;
+    }
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        const std::string id = entry.path().stem().string();
+        EXPECT_TRUE(id == "README" || ids.contains(id)) << entry.path();
+    }
 }
