@@ -37,8 +37,18 @@ add_custom_command(
           -D FOLDER_NAME=harness/report/web -P ${CMAKE_SOURCE_DIR}/cmake/embed.cmake
   DEPENDS ${web_files} ${CMAKE_SOURCE_DIR}/cmake/embed.cmake
   VERBATIM)
+# The atlas of where methods fail is a page of them: the document, and the pictures that it shows.
+file(GLOB atlas_files CONFIGURE_DEPENDS docs/stability.md docs/images/stability/* reports/published/*.svg
+     reports/published/sweeps/*.svg reports/published/sweeps/README.md)
+set(atlas_source ${CMAKE_BINARY_DIR}/atlas_files.cpp)
+add_custom_command(
+  OUTPUT ${atlas_source}
+  COMMAND ${CMAKE_COMMAND} -D OUTPUT=${atlas_source} -D SOURCE=${CMAKE_SOURCE_DIR}
+          -P ${CMAKE_SOURCE_DIR}/cmake/embed_atlas.cmake
+  DEPENDS ${atlas_files} ${CMAKE_SOURCE_DIR}/cmake/embed_atlas.cmake
+  VERBATIM)
 crossray_module(report USES run PACKAGES nlohmann_json::nlohmann_json ZLIB::ZLIB)
-target_sources(crossray_report PRIVATE ${web_source})
+target_sources(crossray_report PRIVATE ${web_source} ${atlas_source})
 crossray_module(sweep USES inspect)
 crossray_module(inspector USES inspect report PACKAGES PkgConfig::httplib)
 crossray_module(mutate USES run PACKAGES nlohmann_json::nlohmann_json)

@@ -16,6 +16,8 @@ namespace crossray {
 
 namespace {
 
+constexpr int kDeflateLevel = 5; // zlib's
+
 // Exponents lie beside exponents then, and so shrink: half the size of the floats as they come.
 std::string shuffleFloats(const Plane& plane)
 {
@@ -34,21 +36,19 @@ std::string shuffleFloats(const Plane& plane)
     return bytes;
 }
 
-constexpr int kPlaneLevel = 5; // zlib's
+} // namespace
 
-std::string deflateBytes(const std::string& bytes)
+std::string deflateBytes(std::string_view bytes)
 {
     uLongf size = compressBound(static_cast<uLong>(bytes.size()));
     std::string packed(size, '\0');
     const int status =
         compress2(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
-                  static_cast<uLong>(bytes.size()), kPlaneLevel);
+                  static_cast<uLong>(bytes.size()), kDeflateLevel);
     if (status != Z_OK) throw std::logic_error(fmt::format("zlib's compress2 says {}", status));
     packed.resize(size);
     return packed;
 }
-
-} // namespace
 
 std::string packPlane(const Plane& plane)
 {

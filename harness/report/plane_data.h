@@ -8,6 +8,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace crossray {
@@ -38,5 +39,8 @@ std::string encodeCubemap(const Cubemap& cubemap);
 
 // The deflated bytes of one plane.
 std::string packPlane(const Plane& plane);
+
+// By zlib.
+std::string deflateBytes(std::string_view bytes);
 
 } // namespace crossray

@@ -26,7 +26,7 @@ constexpr size_t kChunkBytes = 256 << 10; // of passed cases' details in one pie
 constexpr size_t kMaxLeftOutLines = 40;
 constexpr std::string_view kTraceSchema = "crossray-trace/1";
 constexpr std::string_view kBenchSchemas[] = {"crossray-bench/1", "crossray-tracers/1", "crossray-sweep/1",
-                                             "crossray-mutation/1"};
+                                              "crossray-mutation/1"};
 
 // The planes of one case that a report may hold, the most telling first.
 struct PlaneSource {
@@ -62,6 +62,7 @@ class Report {
         addDetails(true);
         addDetails(false);
         if (options_.isSingle) checkRoom();
+        addAtlas();
         for (const bool ofFailures : {true, false})
             addPlanes(ofFailures);
         tellLeftOut();
@@ -155,8 +156,9 @@ class Report {
             if (std::find(std::begin(kBenchSchemas), std::end(kBenchSchemas), schema) == std::end(kBenchSchemas)) {
                 throw InputError(
                     {bench.name, 0, 0},
-                    fmt::format("its schema is \"{}\"; allowed are {}: what bench, bench tracers, sweep and mutate write",
-                                schema, fmt::join(kBenchSchemas, ", ")));
+                    fmt::format(
+                        "its schema is \"{}\"; allowed are {}: what bench, bench tracers, sweep and mutate write",
+                        schema, fmt::join(kBenchSchemas, ", ")));
             }
             index_.benches.push_back(fmt::format("bench-{}", index_.benches.size()));
             add({index_.benches.back(), json.dump()});
@@ -170,6 +172,25 @@ class Report {
             add({piece, encodeCubemap(item.cubemap)});
             index_.cubemaps.emplace_back(item.name, piece);
         }
+    }
+
+    // A hundredth of a single file, so that it comes before the planes.
+    void addAtlas()
+    {
+        if (options_.atlas.empty()) return;
+        addIfThereIsRoom(makeAtlasTexts(options_.atlas), index_.atlas, "the atlas of where methods fail");
+        if (index_.atlas.empty()) return;
+        addIfThereIsRoom(makeAtlasPictures(options_.atlas), index_.atlasPictures, "the pictures of the atlas");
+    }
+
+    void addIfThereIsRoom(PageData piece, std::string& nameInIndex, const char* what)
+    {
+        if (options_.isSingle && sizeInPage(piece) > roomLeft()) {
+            index_.leftOut.push_back(what);
+            return;
+        }
+        nameInIndex = piece.name;
+        add(std::move(piece));
     }
 
     // Failures in pieces of their own, so that one is read quickly; the others many at once.
@@ -313,7 +334,7 @@ void removeOldData(const fs::path& folder)
         const std::string name = entry.path().filename().string();
         const bool isOurs = entry.is_regular_file() && name.ends_with(".js") &&
                             (name.starts_with("cases-") || name.starts_with("planes-") || name.starts_with("trace-") ||
-                             name.starts_with("bench-") || name.starts_with("cubemap-"));
+                             name.starts_with("bench-") || name.starts_with("cubemap-") || name.starts_with("atlas"));
         if (!isOurs) {
             throw InputError(
                 fmt::format("{}: holds {}, which no report has written; choose another --output", data.string(), name));
@@ -354,6 +375,7 @@ ReportSummary writeReport(const RunResult& run, const fs::path& runFolder, const
 {
     ReportOptions options = given;
     addTracesOfRun(run, runFolder, options);
+    options.atlas = atlasFiles();
     options.hasFile = [&](const std::string& file) { return fs::exists(runFolder / file); };
     const auto read = [&](const std::string& file) { return readExr(runFolder / file); };
     if (options.isSingle) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "harness/base/plane.h"
+#include "harness/report/atlas.h"
 #include "harness/run/results.h"
 #include "harness/scene/cubemap.h"
 
@@ -40,6 +41,7 @@ struct ReportOptions {
     std::vector<ReportInput> traces;    // of `crossray trace --json`, shown with the case and pixel that they are of
     std::vector<ReportCubemap> cubemaps;
     std::vector<ReportInput> benches; // JSON of `bench`, `bench tracers`, `sweep` and `mutate`
+    std::span<const AtlasFile> atlas; // a page of its own; empty: none
 };
 
 struct ReportSummary {
@@ -55,9 +57,9 @@ using WriteFile = std::function<void(const std::string& file, std::string_view c
 ReportSummary makeReport(const RunResult& run, const ReportOptions& options, const ReadPlanes& readPlanes,
                          const WriteFile& writeFile);
 
-// The same from a run's folder to a folder (index.html and data/) or, for a single one, to a file. What an earlier
-// report left there is replaced. Throws InputError (no such planes; a folder that holds other things), and
-// EnvironmentError when it cannot be written.
+// The same from a run's folder to a folder (index.html and data/) or, for a single one, to a file, with the program's
+// own atlas. What an earlier report left there is replaced. Throws InputError (no such planes; a folder that holds
+// other things), and EnvironmentError when it cannot be written.
 ReportSummary writeReport(const RunResult& run, const std::filesystem::path& runFolder,
                           const std::filesystem::path& target, const ReportOptions& options);
 

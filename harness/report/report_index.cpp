@@ -136,10 +136,17 @@ std::string formatIndexJson(const RunResult& run, const ReportOptions& options, 
     Json cubemaps = Json::array();
     for (const auto& [name, piece] : index.cubemaps)
         cubemaps.push_back({{"name", name}, {"piece", piece}});
-    const Json json{
-        {"schema", kReportSchema},    {"runFolder", options.runFolder}, {"run", Json::parse(formatHeadJson(run))},
-        {"outputs", formatOutputs()}, {"leftOut", index.leftOut},       {"traces", traces},
-        {"benches", benches},         {"cubemaps", cubemaps},           {"cases", cases}};
+    const Json json{{"schema", kReportSchema},
+                    {"runFolder", options.runFolder},
+                    {"run", Json::parse(formatHeadJson(run))},
+                    {"outputs", formatOutputs()},
+                    {"leftOut", index.leftOut},
+                    {"traces", traces},
+                    {"benches", benches},
+                    {"cubemaps", cubemaps},
+                    {"atlas", index.atlas},
+                    {"atlasPictures", index.atlasPictures},
+                    {"cases", cases}};
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

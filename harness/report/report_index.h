@@ -27,6 +27,7 @@ struct ReportIndex {
     std::vector<TracePiece> traces;
     std::vector<std::string> benches;                          // names of pieces
     std::vector<std::pair<std::string, std::string>> cubemaps; // name and piece
+    std::string atlas, atlasPictures;                          // names of pieces; empty: none
     std::vector<std::string> leftOut;
 };
 

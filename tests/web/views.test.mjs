@@ -4,7 +4,7 @@ import { deflateSync } from 'node:zlib';
 import { acceptCommand, knownFailureToml, quoteForShell, traceCommand } from '../../harness/report/web/commands.js';
 import { choose } from '../../harness/report/web/choose.js';
 import { divergingTable, nanColor, plusInfinityColor, sequentialTable } from '../../harness/report/web/colors.js';
-import { compareDisplay, compareMask, decidableMask, measure, Plane, planesFromBytes, rankErrors, unpackFloats } from '../../harness/report/web/planes.js';
+import { compareDisplay, compareMask, countBeyond, decidableMask, measure, Plane, planesFromBytes, rankErrors, unpackFloats } from '../../harness/report/web/planes.js';
 import { formatHash, kDefaults, parseHash } from '../../harness/report/web/state.js';
 import { drawPlane, resolveView } from '../../harness/report/web/views.js';
 
@@ -85,6 +85,11 @@ test('errors, those beyond the bounds, and their rank', () => {
   const found = compareDisplay('depth', plane('a', 1, [1, 1, 1, 1]), plane('b', 1, [1, 2, 1.0001, NaN]), Uint8Array.of(1, 1, 1, 0), { floor: 0, relative: 0.01 });
   assert.deepEqual([...found.beyond], [0, 1, 0, 0]);
   assert.deepEqual(rankErrors(found.errors), [1, 2]);
+});
+
+test('what cannot be decided is counted apart', () => {
+  assert.deepEqual(countBeyond(Uint8Array.of(1, 0, 1, 1), Uint8Array.of(1, 0, 0, 1)), { count: 2, excused: 1 });
+  assert.deepEqual(countBeyond(Uint8Array.of(1, 0, 1, 1), null), { count: 3, excused: 0 });
 });
 
 test('the hash holds what differs from the start, and reads back', () => {

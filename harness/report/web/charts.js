@@ -120,8 +120,8 @@ export async function drawCharts(box, { index, state, update, has }) {
   const charts = files.filter((file) => !sweeps.includes(file) && !hunts.includes(file)).flatMap(readCharts).filter((chart) => chart.points.length > 0);
   const errors = [...new Set([...charts.flatMap((chart) => Object.keys(chart.points[0].errors)), ...sweeps.flatMap(sweepOutputs)])];
   const costs = [...new Set(charts.flatMap((chart) => Object.keys(chart.points[0].costs)))].filter((name) => name in kCosts);
-  const error = errors.includes(state.error) ? state.error : '';
-  const cost = costs.includes(state.cost) ? state.cost : costs[0];
+  const error = errors.includes(state().error) ? state().error : '';
+  const cost = costs.includes(state().cost) ? state().cost : costs[0];
   const sections = charts.map((chart) => {
     const own = Object.keys(chart.points[0].errors);
     const shown = own.includes(error) ? error : own.includes('Wrong') ? 'Wrong' : own[0];

@@ -40,8 +40,8 @@ export function openHelp() {
 
 const isText = (element) => element?.matches?.('input:not([type=range]):not([type=checkbox]), select, textarea');
 
-/** `actions`: by key, as main.js names them; each gets the event. */
-export function listenToKeys(actions, holdShift) {
+/** `actionOf(key)`: what main.js does at a key, which gets the event; none: the browser has it. */
+export function listenToKeys(actionOf, holdShift) {
   addEventListener('keydown', (event) => {
     if (event.key === 'Shift') holdShift(true);
     if (event.ctrlKey || event.metaKey || event.altKey || document.getElementById('dialog').open) return;
@@ -49,7 +49,7 @@ export function listenToKeys(actions, holdShift) {
     if (event.key === 'Escape' && isText(target)) target.blur();
     if (isText(target) || (target.type === 'range' && event.key.startsWith('Arrow'))) return;
     if ((target.closest?.('.steps-box, [role=listbox]')) && /^(Arrow|Page|Home|End)/.test(event.key) && !event.key.startsWith('Page')) return;
-    const action = actions[event.key.length === 1 ? event.key.toLowerCase() : event.key];
+    const action = actionOf(event.key.length === 1 ? event.key.toLowerCase() : event.key);
     if (!action) return;
     event.preventDefault();
     action(event);

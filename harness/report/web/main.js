@@ -1,4 +1,5 @@
 // Puts the page together: state changes in, drawings out.
+import { drawAtlas } from 'crossray/atlas.js';
 import { drawCharts } from 'crossray/charts.js';
 import { choose } from 'crossray/choose.js';
 import { drawCubemaps } from 'crossray/cubemap.js';
@@ -11,7 +12,7 @@ import { createLive } from 'crossray/live.js';
 import { formatShort, parseTolerance, unitOf } from 'crossray/numbers.js';
 import { createPanes } from 'crossray/panes.js';
 import { drawPixel } from 'crossray/pixel.js';
-import { compareDisplay, compareMask, decidableMask, measure, rankErrors } from 'crossray/planes.js';
+import { compareDisplay, compareMask, countBeyond, decidableMask, measure, rankErrors } from 'crossray/planes.js';
 import { drawRecord } from 'crossray/record.js';
 import { createStore } from 'crossray/state.js';
 import { drawToolbar } from 'crossray/toolbar.js';
@@ -21,7 +22,8 @@ import { drawDifference, drawPlane, resolveView } from 'crossray/views.js';
 const kSchema = 'crossray-report/1';
 const byId = (id) => document.getElementById(id);
 const index = readIndex();
-const pages = [index.benches.length > 0 && 'charts', index.cubemaps.length > 0 && 'cubemaps']; // beside that of a case
+const kPages = { charts: drawCharts, cubemaps: drawCubemaps, atlas: drawAtlas }; // beside that of a case
+const pages = [index.benches.length > 0 && 'charts', index.cubemaps.length > 0 && 'cubemaps', index.atlas && 'atlas'];
 const cases = new Map(index.cases.map((item) => [item.name, item]));
 
 // What is loaded of the chosen case, and what choose() made of it.
@@ -128,7 +130,7 @@ function differencePane() {
   const largest = finite.reduce((a, b) => Math.max(a, b), 0);
   const endless = picture.errors.length - finite.length;
   const { dx, signed, ch } = state();
-  const facts = [`${picture.count} px ${picture.isJudged ? 'beyond' : 'differ'}`, `max ${formatShort(largest)} ${unitOf(shown.type)}`];
+  const facts = [`${picture.count} px ${picture.isJudged ? 'beyond' : 'differ'}`, ...(picture.excused > 0 ? [`${picture.excused} undecidable`] : []), `max ${formatShort(largest)} ${unitOf(shown.type)}`];
   if (endless > 0) facts.push(`${endless} without a number`);
   return {
     key: 'difference', title: signed ? 'actual − expected' : 'difference', width: actual.plane.width, height: actual.plane.height,
@@ -143,7 +145,7 @@ const undecidableAbove = () => shown.expectation?.undecidableAbove ?? model.deta
 function comparePlanes() {
   const { against, actual, expectation } = shown;
   const decidable = decidableMask(model.planesOf.get('conditioning'), shown.output, undecidableAbove());
-  const found = { shown, decidable, mask: null, errors: null, rank: [], count: 0 };
+  const found = { shown, decidable, mask: null, errors: null, rank: [], count: 0, excused: 0 };
   if (expectation && actual) {
     const hits = model.planesOf.get(shown.backend)?.find((plane) => plane.name === 'HitSuccess');
     found.mask = compareMask(model.planesOf.get('expected') ?? [], expectation.index, hits);
@@ -154,7 +156,7 @@ function comparePlanes() {
   found.isJudged = bounds !== null;
   found.rank = rankErrors(found.errors);
   found.differing = found.errors.reduce((count, error) => count + (error > 0 ? 1 : 0), 0);
-  found.count = found.beyond.reduce((count, each) => count + each, 0);
+  Object.assign(found, countBeyond(found.beyond, bounds && decidable));
   return found;
 }
 
@@ -232,7 +234,7 @@ function drawAll() {
 }
 
 const kPlaces = new Set(['z', 'cx', 'cy']);
-const kOther = new Set(['f', 'page', 'error', 'cost', 'cube', 'yaw', 'pitch', 'fov', 'mip', 'glow']); // not of the pictures
+const kOther = new Set(['f', 'page', 'error', 'cost', 'cube', 'yaw', 'pitch', 'fov', 'mip', 'glow', 'at', 'figure']); // not of the pictures
 const kView = new Set(['mode', 'ev', 'off', 'norm', 'ch', 'gamma', 'dx', 'signed', 'layout', 'hatch', 'worst', 'grid']);
 const kPixel = new Set(['x', 'y', 'step', 'follow', 'beside']);
 const kAsked = new Set(['p', 'b']); // of the inspector's server
@@ -243,7 +245,7 @@ function react(_, keys) {
     list.draw(state().f);
     list.select(state().case);
   }
-  if (['page', 'error', 'cost', 'cube'].some((key) => keys.has(key))) showPage();
+  if (['page', 'error', 'cost', 'cube', 'at', 'figure'].some((key) => keys.has(key))) showPage();
   const item = cases.get(state().case);
   if (keys.has('case') && item) return void loadCase(item);
   if (!model.item) return;
@@ -263,18 +265,19 @@ function react(_, keys) {
   } else drawAll();
 }
 
+const pageShown = () => (pages.includes(state().page) ? state().page : '');
+
 function showPage() {
-  const page = pages.includes(state().page) ? state().page : '';
-  for (const name of ['charts', 'cubemaps']) {
+  const page = pageShown();
+  for (const name of Object.keys(kPages)) {
     byId(name).hidden = name !== page;
     byId(`show-${name}`).hidden = !pages.includes(name);
     byId(`show-${name}`).setAttribute('aria-pressed', String(name === page));
     byId(`show-${name}`).onclick = () => update({ page: state().page === name ? '' : name });
   }
   document.body.classList.toggle('other-page', page !== '');
-  if (page === 'charts') drawCharts(byId('charts'), { index, state: state(), update, has: (name) => cases.has(name) });
-  else if (page === 'cubemaps') drawCubemaps(byId('cubemaps'), { index, state, update });
-  else panes.draw();
+  if (page === '') panes.draw();
+  else kPages[page](byId(page), { index, state, update, has: (name) => cases.has(name) });
 }
 
 function goTo(by) {
@@ -329,6 +332,7 @@ const actions = {
   ArrowUp: (event) => movePixel(0, -1, event),
   ArrowDown: (event) => movePixel(0, 1, event),
 };
+const kOfAnyPage = new Set(['?', '/', '[', ']']);
 for (let i = 1; i <= 9; ++i) actions[i] = () => shown?.names[i - 1] && update({ o: shown.names[i - 1], e: -1 });
 
 function openRun() {
@@ -381,7 +385,7 @@ function start() {
     }
   });
   list.draw(state().f);
-  listenToKeys(actions, (held) => panes.holdShift(held));
+  listenToKeys((key) => (pageShown() === '' || kOfAnyPage.has(key) ? actions[key] : null), (held) => panes.holdShift(held));
   addEventListener('dragover', (event) => event.preventDefault());
   addEventListener('drop', async (event) => {
     event.preventDefault();

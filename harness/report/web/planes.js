@@ -34,9 +34,12 @@ async function inflate(bytes) {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
+/** The bytes that were deflated and then written in base64. */
+export const unpackBytes = (base64) => inflate(bytesFromBase64(base64));
+
 /** Undoes harness/report/plane_data.cpp: base64, deflate, and bytes sorted by their place in the float. */
 export async function unpackFloats(base64) {
-  const sorted = await inflate(bytesFromBase64(base64));
+  const sorted = await unpackBytes(base64);
   const count = sorted.length / 4;
   const bits = new Uint32Array(count);
   for (let byte = 0; byte < 4; ++byte) {
@@ -126,6 +129,12 @@ export function compareDisplay(type, expected, actual, mask, bounds) {
     beyond[pixel] = errors[pixel] > 0 && (!bounds || !isWithin(type, e, a, bounds)) ? 1 : 0;
   }
   return { errors, beyond };
+}
+
+/** How many are beyond, and how many more would be if they could be decided, which the judge does not count either. */
+export function countBeyond(beyond, decidable) {
+  const excused = decidable ? beyond.reduce((sum, each, i) => sum + (each && !decidable[i] ? 1 : 0), 0) : 0;
+  return { excused, count: beyond.reduce((sum, each) => sum + each, 0) - excused };
 }
 
 /** Pixels with an error, the largest first; at most `limit`. */

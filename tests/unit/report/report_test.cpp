@@ -271,12 +271,12 @@ TEST(Report, writesBesideTheRunAndReplacesAnEarlierReport)
     const ReportSummary summary = writeReport(fixture.run, folder.path(), target, {});
     EXPECT_FALSE(std::filesystem::exists(target / "data/planes-99-0.js"));
     EXPECT_TRUE(std::filesystem::exists(target / "index.html"));
-    EXPECT_EQ(summary.files, 7u);
+    EXPECT_EQ(summary.files, 9u); // the atlas is two of them
 
     fixture.run.cases[0].backends[1].traceFile = "planes/hiz/far_depth/osmesa.trace.json";
     EXPECT_THROW(writeReport(fixture.run, folder.path(), target, {}), InputError) << "run.json names what is not there";
     std::ofstream(folder.path() / "planes/hiz/far_depth/osmesa.trace.json") << kTrace;
-    EXPECT_EQ(writeReport(fixture.run, folder.path(), target, {}).files, 8u);
+    EXPECT_EQ(writeReport(fixture.run, folder.path(), target, {}).files, 10u);
     EXPECT_TRUE(std::filesystem::exists(target / "data/trace-0.js"));
 
     std::ofstream(target / "data/mine.txt") << "mine";

@@ -1,0 +1,45 @@
+#include "harness/report/atlas.h"
+
+#include "harness/report/plane_data.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <stdexcept>
+
+namespace crossray {
+
+namespace {
+
+// Empty for a text.
+std::string_view pictureTypeOf(std::string_view name)
+{
+    if (name.ends_with(".svg")) return "image/svg+xml";
+    if (name.ends_with(".png")) return "image/png";
+    if (name.ends_with(".md")) return "";
+    throw std::logic_error(fmt::format("the atlas shows no such file: {}", name));
+}
+
+} // namespace
+
+PageData makeAtlasTexts(std::span<const AtlasFile> files)
+{
+    nlohmann::ordered_json texts = nlohmann::ordered_json::array();
+    for (const AtlasFile& file : files) {
+        if (pictureTypeOf(file.name).empty()) texts.push_back({{"name", file.name}, {"text", file.content}});
+    }
+    return {"atlas", texts.dump()};
+}
+
+PageData makeAtlasPictures(std::span<const AtlasFile> files)
+{
+    nlohmann::ordered_json pictures = nlohmann::ordered_json::object();
+    for (const AtlasFile& file : files) {
+        const std::string_view type = pictureTypeOf(file.name);
+        if (type.empty()) continue;
+        pictures[std::string(file.name)] = {{"type", type}, {"data", encodeBase64(deflateBytes(file.content))}};
+    }
+    return {"atlas-pictures", pictures.dump()};
+}
+
+} // namespace crossray
