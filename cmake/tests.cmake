@@ -35,8 +35,9 @@ endif()
 
 # The tests of the worker pool start workers whose device misbehaves on demand.
 if(TARGET test_run)
-  add_executable(worker_program tests/unit/run/worker_program.cpp)
+  add_executable(worker_program tests/unit/run/worker_program.cpp tests/unit/run/dying_worker.cpp)
   target_link_libraries(worker_program PRIVATE crossray_run)
+  target_sources(test_run PRIVATE tests/unit/run/dying_worker.cpp)
   add_dependencies(test_run worker_program)
   if(TARGET test_inspector)
     add_dependencies(test_inspector worker_program)

@@ -21,6 +21,9 @@ namespace {
 
 constexpr std::chrono::milliseconds kDeathGrace(2000); // for a process whose pipe has closed to be seen dead
 
+// Processes in a row that may be lost before a job was begun. What kills one is not the job: it knows nothing of it.
+constexpr int kMostLosses = 5;
+
 // The cores that this process may use.
 std::vector<int> ownCpus()
 {
@@ -66,9 +69,17 @@ class Worker {
     MemoryUse memory(); // the largest of its processes
 
   private:
-    std::optional<JobReport> start(); // a report when it failed
-    // Nothing when the process died before it had read the whole job: `blames` makes that the job's crash.
-    std::optional<JobReport> exchangeJob(const Job& job, std::chrono::duration<double> timeout, bool blames);
+    // How an attempt to open the device, or to hand a job over, came to nothing.
+    struct Setback {
+        JobReport report;
+        bool isFinal = false; // another process would fare no better
+    };
+    std::optional<Setback> start();
+    // start() until it succeeds, or the losses are too many or took too long; then a report about the backend.
+    std::optional<JobReport> startOrGiveUp(int& losses, std::chrono::steady_clock::time_point begin);
+    JobReport reportGivenUp(JobReport last, int losses) const;
+    // Nothing when the process died before it had read the whole job, with its end in `loss`.
+    std::optional<JobReport> exchangeJob(const Job& job, std::chrono::duration<double> timeout, JobReport& loss);
     JobReport reportLoss(WorkerProcess::Answer answer, double timeoutSeconds);
     void drop();
 
@@ -118,11 +129,11 @@ JobReport Worker::reportLoss(WorkerProcess::Answer answer, double timeoutSeconds
     return report;
 }
 
-std::optional<JobReport> Worker::start()
+std::optional<Worker::Setback> Worker::start()
 {
     if (process_ && process_->isAlive()) return std::nullopt;
     drop(); // one that ended between jobs harmed none
-    if (refusal_) return JobReport{JobOutcome::kEnvironmentError, {}, *refusal_, {}, 0};
+    if (refusal_) return Setback{{JobOutcome::kEnvironmentError, {}, *refusal_, {}, 0}, true};
     {
         auto process = std::make_unique<WorkerProcess>(command_);
         const std::lock_guard lock(processMutex_);
@@ -133,7 +144,7 @@ std::optional<JobReport> Worker::start()
         refusal_ = answer.frame.text();
         JobReport report{JobOutcome::kEnvironmentError, {}, *refusal_, process_->log().lines(), 0};
         drop();
-        return report;
+        return Setback{std::move(report), true};
     }
     try {
         if (answer.end == ExchangeEnd::kAnswered) {
@@ -147,10 +158,31 @@ std::optional<JobReport> Worker::start()
     }
     JobReport report = reportLoss(std::move(answer), startTimeout_.count());
     report.text = "while opening the device: " + report.text;
-    return report;
+    return Setback{std::move(report), false};
 }
 
-std::optional<JobReport> Worker::exchangeJob(const Job& job, std::chrono::duration<double> timeout, bool blames)
+std::optional<JobReport> Worker::startOrGiveUp(int& losses, Clock::time_point begin)
+{
+    while (std::optional<Setback> setback = start()) {
+        if (setback->isFinal) return std::move(setback->report);
+        // A driver that hangs takes the whole time once; one that crashes is soon tried again.
+        if (++losses >= kMostLosses || Clock::now() - begin >= startTimeout_)
+            return reportGivenUp(std::move(setback->report), losses);
+    }
+    return std::nullopt;
+}
+
+JobReport Worker::reportGivenUp(JobReport last, int losses) const
+{
+    last.outcome = JobOutcome::kEnvironmentError;
+    last.text = losses == 1
+                    ? fmt::format("{} is broken: a worker ended before a job was begun, {}", backend_, last.text)
+                    : fmt::format("{} is broken: {} workers in a row ended before a job was begun, the last {}",
+                                  backend_, losses, last.text);
+    return last;
+}
+
+std::optional<JobReport> Worker::exchangeJob(const Job& job, std::chrono::duration<double> timeout, JobReport& loss)
 {
     const Clock::time_point deadline = deadlineAfter(timeout);
     JobEncoding encoding{greeting_.precision, programFormOf(backend_), &programs_};
@@ -159,7 +191,10 @@ std::optional<JobReport> Worker::exchangeJob(const Job& job, std::chrono::durati
         programs_.clear();
         answer = process_->exchange(FrameKind::kJob, encodeJob(job, encoding), deadline);
     }
-    if (answer.end == ExchangeEnd::kDied && !answer.taken && !blames) return std::nullopt;
+    if (answer.end == ExchangeEnd::kDied && !answer.taken) {
+        loss = reportLoss(std::move(answer), timeout.count());
+        return std::nullopt;
+    }
     if (answer.end != ExchangeEnd::kAnswered) return reportLoss(std::move(answer), timeout.count());
     for (const ProgramSource& program : job.programs) {
         if (!program.key.empty()) programs_.insert(program.key);
@@ -192,29 +227,31 @@ std::optional<JobReport> Worker::exchangeJob(const Job& job, std::chrono::durati
 JobReport Worker::run(const Job& job, std::chrono::duration<double> timeout)
 {
     const std::lock_guard lock(running_);
-    // A process that is killed between two jobs may still look alive when the next one is handed over. What dies before
-    // it has read the job was not killed by it; a second one in a row may have been (too large to be read, say).
-    std::optional<JobReport> report;
-    for (const bool blames : {false, true}) {
-        if (std::optional<JobReport> failed = start()) return *failed;
+    // A process that is killed between two jobs may still look alive when the next one is handed over. What dies while
+    // it opens its device, or before it has read the job, was not killed by the job: another one is asked.
+    const Clock::time_point opening = Clock::now();
+    for (int losses = 0;;) {
+        if (std::optional<JobReport> failed = startOrGiveUp(losses, opening)) return *std::move(failed);
         process_->log().clear(); // what it said before is not this job's
         const Clock::time_point begin = Clock::now();
-        report = exchangeJob(job, timeout, blames);
-        if (report) {
+        JobReport loss;
+        if (std::optional<JobReport> report = exchangeJob(job, timeout, loss)) {
             report->milliseconds = millisecondsSince(begin);
-            break;
+            return *std::move(report);
         }
-        process_->kill(kDeathGrace);
-        drop();
+        if (++losses >= kMostLosses) {
+            loss.text = "before it had read the job: " + loss.text;
+            return reportGivenUp(std::move(loss), losses);
+        }
     }
-    return *report;
 }
 
 Fingerprint Worker::open()
 {
     const std::lock_guard lock(running_);
-    if (const std::optional<JobReport> failed = start()) {
-        std::string text = fmt::format("{}: {}", backend_, failed->text);
+    int losses = 0;
+    if (const std::optional<JobReport> failed = startOrGiveUp(losses, Clock::now())) {
+        std::string text = refusal_ ? fmt::format("{}: {}", backend_, failed->text) : failed->text;
         if (!failed->logLines.empty()) text += "; its last line: " + failed->logLines.back();
         throw EnvironmentError(text);
     }

@@ -49,7 +49,10 @@ class WorkerPool {
   public:
     explicit WorkerPool(const WorkerOptions& options);
     ~WorkerPool(); // ends the workers
-    // Blocks until a worker of the backend has answered, crashed or timed out. `core` chooses the worker.
+    // Blocks until a worker of the backend has answered, crashed or timed out. `core` chooses the worker. One that ends
+    // before it has begun the job (while it opens its device, between two jobs, before it has read the job) is
+    // replaced; after five in a row the report is an environment error that calls the backend broken, and the next job
+    // tries again.
     JobReport run(const std::string& backend, int core, const Job& job, std::chrono::duration<double> timeout);
     // Starts a worker ahead of need; returns its device's fingerprint. Throws EnvironmentError when the device cannot
     // be opened.

@@ -5,12 +5,14 @@
 #include "harness/run/worker_frame.h"
 #include "harness/run/worker_pool.h"
 #include "harness/run/worker_server.h"
+#include "tests/unit/run/dying_worker.h"
 
 #include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <memory>
@@ -149,6 +151,10 @@ int main(int argc, char** argv)
         std::fprintf(stderr, "this driver cannot even start\n");
         return 6;
     }
+    if (backend == "never-opens") {
+        while (true)
+            ::pause();
+    }
     if (backend == "deaf") { // ends when a job arrives, before it has read it
         const TestDevice device(backend, replyFd);
         writeFrame(replyFd, FrameKind::kGreeting, encodeGreeting({device.fingerprint(), device.precision()}));
@@ -156,7 +162,15 @@ int main(int argc, char** argv)
         ::poll(&watched, 1, -1);
         return 8;
     }
-    if (!backend.starts_with("test") && backend != "refusing") {
+    if (const char* deaths = std::getenv(kDeathsVariable))
+        return serveDying(deaths, backend, std::atoi(options["--request-fd"].c_str()), replyFd);
+    if (backend == "late-riser") { // the fourth process opens: the ones before it die
+        const char* file = std::getenv("CROSSRAY_TEST_TRIES");
+        if (file == nullptr) return 2;
+        std::ofstream(file, std::ios::app) << '.';
+        if (std::filesystem::file_size(file) < 4) return 6;
+    }
+    if (!backend.starts_with("test") && backend != "late-riser" && backend != "refusing") {
         return runWorker(backend, std::atoi(options["--request-fd"].c_str()), replyFd, validation);
     }
     return serveJobs(std::atoi(options["--request-fd"].c_str()), replyFd, [&]() -> std::unique_ptr<Device> {
