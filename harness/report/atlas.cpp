@@ -22,6 +22,18 @@ std::string_view pictureTypeOf(std::string_view name)
 
 } // namespace
 
+std::set<std::string> findAtlasCases(std::span<const AtlasFile> files)
+{
+    constexpr std::string_view kOpen = "](../cases/", kClose = ".toml)";
+    std::set<std::string> names;
+    const std::string_view text = files.empty() ? "" : files.front().content;
+    for (size_t at = text.find(kOpen); at != std::string_view::npos; at = text.find(kOpen, at)) {
+        at += kOpen.size();
+        names.emplace(text.substr(at, text.find(kClose, at) - at));
+    }
+    return names;
+}
+
 PageData makeAtlasTexts(std::span<const AtlasFile> files)
 {
     nlohmann::ordered_json texts = nlohmann::ordered_json::array();

@@ -180,6 +180,7 @@ class Report {
         if (options_.atlas.empty()) return;
         addIfThereIsRoom(makeAtlasTexts(options_.atlas), index_.atlas, "the atlas of where methods fail");
         if (index_.atlas.empty()) return;
+        index_.atlasCases = findAtlasCases(options_.atlas);
         addIfThereIsRoom(makeAtlasPictures(options_.atlas), index_.atlasPictures, "the pictures of the atlas");
     }
 

@@ -146,6 +146,7 @@ std::string formatIndexJson(const RunResult& run, const ReportOptions& options, 
                     {"cubemaps", cubemaps},
                     {"atlas", index.atlas},
                     {"atlasPictures", index.atlasPictures},
+                    {"atlasCases", index.atlasCases},
                     {"cases", cases}};
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

@@ -4,6 +4,7 @@
 #include "harness/report/report.h"
 
 #include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -28,6 +29,7 @@ struct ReportIndex {
     std::vector<std::string> benches;                          // names of pieces
     std::vector<std::pair<std::string, std::string>> cubemaps; // name and piece
     std::string atlas, atlasPictures;                          // names of pieces; empty: none
+    std::set<std::string> atlasCases;                          // that it links
     std::vector<std::string> leftOut;
 };
 

@@ -26,6 +26,7 @@ async function unpackPictures(piece) {
 
 let texts = null; // what was read of the pieces, once: {sections, sweeps, pictures}
 let drawn = null; // the run's cases that the page was drawn with
+let went = ''; // the place that it was last asked for
 let titles = new Map(); // of pictures, by path
 let change = null; // changes the state
 
@@ -59,7 +60,7 @@ const figureLink = (path, name, ...content) => link({ figure: path }, { class: '
 
 function drawCase(name, cases, ...content) {
   const verdict = verdictOf(casesNamed(cases, name));
-  return h('span', { class: 'case-link' }, verdict ? h('a', { href: `#case=${encodeURIComponent(verdict.first)}` }, ...content) : h('span', { title: `cases/${name}.toml` }, ...content),
+  return h('span', { class: 'case-link', 'data-case': name }, verdict ? h('a', { href: `#case=${encodeURIComponent(verdict.first)}` }, ...content) : h('span', { title: `cases/${name}.toml` }, ...content),
     ' ', drawVerdict(verdict));
 }
 
@@ -116,11 +117,15 @@ function verdictOfSection(section, cases) {
   return { verdict: verdictOf([...names].flatMap((name) => casesNamed(cases, name))), names: names.size };
 }
 
-function goTo(box, id) {
-  const heading = id && box.querySelector(`#at-${CSS.escape(id)}`);
-  if (!heading) return;
-  heading.scrollIntoView({ block: 'start' });
-  heading.focus({ preventScroll: true });
+// To a section, or to the first line that links a case: "case:NAME".
+function goTo(box, at) {
+  for (const row of box.querySelectorAll('.shown')) row.classList.remove('shown');
+  const link = at.startsWith('case:') && box.querySelector(`[data-case="${CSS.escape(at.slice(5))}"] a`);
+  const place = link ? link.closest('tr, li, p') : at && box.querySelector(`#at-${CSS.escape(at)}`);
+  if (!place) return;
+  if (link) place.classList.add('shown');
+  place.scrollIntoView({ block: link ? 'center' : 'start' });
+  (link || place).focus({ preventScroll: true });
 }
 
 function drawContents(sections, cases) {
@@ -176,8 +181,8 @@ export async function drawAtlas(box, { index, state, update }) {
     drawn = index.cases;
     titles = nameTitles(texts);
     change = (patch) => {
+      if (patch.at === state().at) goTo(box, patch.at);
       update(patch);
-      if (patch.at) goTo(box, patch.at); // also when it is in the state already
     };
     const [head, ...sections] = texts.sections;
     const heading = (section) => h('h3', { id: `at-${section.id}`, tabindex: '-1' }, section.title);
@@ -185,6 +190,7 @@ export async function drawAtlas(box, { index, state, update }) {
       drawContents(sections, index.cases), ...head.blocks.map((block) => drawBlock(block, head.title, index.cases)),
       ...sections.map((section) => h('section', { class: 'atlas-section', 'aria-labelledby': `at-${section.id}` }, heading(section), section.blocks.map((block) => drawBlock(block, section.title, index.cases)))));
     goTo(box, state().at);
-  }
+    went = state().at;
+  } else if (went !== state().at) goTo(box, went = state().at);
   if (state().figure && !document.getElementById('dialog').open) openFigure(state().figure, { index, state, update });
 }

@@ -99,9 +99,12 @@ export const isPicture = (path) => kPicture.test(path);
 /** The name of the case that a path is the file of, or null. */
 export const caseNameOf = (path) => path.match(kCase)?.[1] ?? null;
 
+/** The name that all cases of a file begin with. */
+export const fileNameOf = (name) => name.replace(/\[.*/s, '');
+
 /** The cases of a run that a name means: itself, or what its file expands to. */
 export function casesNamed(cases, name) {
-  return cases.filter((item) => item.name === name || item.name.startsWith(`${name}[`));
+  return cases.filter((item) => fileNameOf(item.name) === name);
 }
 
 /**

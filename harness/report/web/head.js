@@ -1,4 +1,5 @@
 // Above the pictures: what the case claims, which backend and output are shown, and what the expectation says.
+import { fileNameOf } from 'crossray/atlas_text.js';
 import { acceptCommand, knownFailureToml, runCommand } from 'crossray/commands.js';
 import { commandLine, h, redraw, verdictMark } from 'crossray/dom.js';
 import { className, formatShort, numberOf } from 'crossray/numbers.js';
@@ -72,11 +73,12 @@ function rest(item, details, shown) {
 }
 
 /** Fills the head. */
-export function drawHead(box, { item, details, shown, update, filterTag }) {
+export function drawHead(box, { item, details, shown, update, index, filterTag }) {
   redraw(box,
     h('div', { class: 'case-title' },
       h('h2', {}, item.name),
       item.mustFail && h('span', { class: 'tag' }, 'must fail'),
+      index.atlasCases.includes(fileNameOf(item.name)) && h('a', { href: `#${new URLSearchParams({ page: 'atlas', at: `case:${fileNameOf(item.name)}` })}` }, 'in the atlas'),
       h('span', { class: 'dim place' }, `${item.file}:${item.line} · ${item.width} × ${item.height}`)),
     h('p', { class: 'summary' }, item.summary, ' ',
       item.tags.map((tag) => h('button', { type: 'button', class: 'tag', title: 'filter by this tag', onclick: () => filterTag(tag) }, `@${tag}`))),

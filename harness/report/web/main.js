@@ -6,7 +6,7 @@ import { drawCubemaps } from 'crossray/cubemap.js';
 import { forgetPieces, loadDetails, loadPlanes, readIndex } from 'crossray/data.js';
 import { h, say } from 'crossray/dom.js';
 import { drawCommands, drawHead, figuresTable } from 'crossray/head.js';
-import { listenToKeys, openDialog, openHelp } from 'crossray/keys.js';
+import { listenToKeys, openHelp } from 'crossray/keys.js';
 import { createList } from 'crossray/list.js';
 import { createLive } from 'crossray/live.js';
 import { formatShort, parseTolerance, unitOf } from 'crossray/numbers.js';
@@ -14,6 +14,7 @@ import { createPanes } from 'crossray/panes.js';
 import { drawPixel } from 'crossray/pixel.js';
 import { compareDisplay, compareMask, countBeyond, decidableMask, measure, rankErrors } from 'crossray/planes.js';
 import { drawRecord } from 'crossray/record.js';
+import { openRun } from 'crossray/run_facts.js';
 import { createStore } from 'crossray/state.js';
 import { drawToolbar } from 'crossray/toolbar.js';
 import { addTrace, drawTracePanel, findTrace } from 'crossray/trace.js';
@@ -185,7 +186,7 @@ function drawPixelPanel() {
   const [x, y] = currentPixel();
   drawPixel(byId('pixel'), byId('outputs'), { live: live !== null, undecidableAbove: undecidableAbove(), shown, planesOf: model.planesOf, item: model.item, x, y, mask: picture.mask, outputs: index.outputs, rank: picture.rank, differing: picture.differing, update, goTo });
   drawHead(byId('case-head'), {
-    item: model.item, details: model.details, shown, update,
+    item: model.item, details: model.details, shown, update, index,
     filterTag: (tag) => { byId('filter').value = `@${tag}`; update({ f: `@${tag}` }); },
   });
 }
@@ -335,19 +336,6 @@ const actions = {
 const kOfAnyPage = new Set(['?', '/', '[', ']']);
 for (let i = 1; i <= 9; ++i) actions[i] = () => shown?.names[i - 1] && update({ o: shown.names[i - 1], e: -1 });
 
-function openRun() {
-  const { run } = index;
-  const facts = [['started', run.started], ['took', `${formatShort(run.seconds)} s on ${run.cores} processors`], ['command', run.commandLine.join(' ')],
-    ['crossray', `${run.version}${run.commit ? `, commit ${run.commit}${run.modified ? ' with changes' : ''}` : ''}`],
-    ...Object.entries(run.compilers), ...(run.interrupted ? [['interrupted', 'cases that were not reached are absent']] : [])];
-  const rows = (pairs) => pairs.map(([name, text]) => h('tr', {}, h('th', { scope: 'row' }, name), h('td', {}, text)));
-  const section = (title, lines) => lines.length > 0 && h('section', {}, h('h3', {}, title), h('ul', {}, lines.map((line) => h('li', {}, line))));
-  openDialog('Run', h('table', { class: 'help' }, h('caption', { class: 'hidden' }, 'Facts'), h('tbody', {}, rows(facts))),
-    h('table', { class: 'help' }, h('caption', {}, 'Backends'), h('tbody', {}, rows(Object.entries(run.backends).map(([name, each]) => [name,
-      each.environmentError || [each.device, each.driver, each.api, each.cpu].filter(Boolean).join(' · ')])))),
-    section('Left out of this file', index.leftOut) || '', section('Broken case files', run.brokenFiles) || '');
-}
-
 function drawTop() {
   const { counts } = index.run;
   if (live) byId('counts').replaceChildren(h('span', {}, 'inspector'), h('span', { class: 'dim' }, `${index.cases.length} cases`));
@@ -361,7 +349,7 @@ function drawTop() {
     event.preventDefault();
     byId('panes').focus();
   };
-  byId('show-run').onclick = openRun;
+  byId('show-run').onclick = () => openRun(index);
   byId('help').onclick = openHelp;
   byId('theme').onclick = () => {
     const isDark = getComputedStyle(document.documentElement).getPropertyValue('--is-dark').trim() === '1';

@@ -3,7 +3,7 @@
 /** Every key with its value at the start. A key that has this value is not in the hash. */
 export const kDefaults = {
   page: '', // charts, cubemaps, atlas, or a case
-  at: '', figure: '', // of the atlas: the section, and the picture that is open
+  at: '', figure: '', // of the atlas: the section or "case:NAME", and the picture that is open
   cube: '', yaw: 0, pitch: 0, fov: 90, mip: 0, glow: 0, // the cubemap and how it is looked at
   error: '', cost: '', // of the charts
   f: '', // text of the filter

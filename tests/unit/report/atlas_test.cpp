@@ -23,7 +23,9 @@ std::string readAll(const std::filesystem::path& file)
 }
 
 constexpr AtlasFile kFiles[] = {
-    {"docs/a.md", "# A\n\n</script> [b](b.svg)"}, {"docs/sweeps.md", "# S"}, {"docs/b.svg", "<svg/>"}};
+    {"docs/a.md", "# A\n\n</script> [b](b.svg) [c](../cases/d/c.toml), [e](../cases/e.toml)"},
+    {"docs/sweeps.md", "# S"},
+    {"docs/b.svg", "<svg/>"}};
 
 nlohmann::json readIndex(const std::string& page)
 {
@@ -53,6 +55,10 @@ TEST(Atlas, isTheDocumentWithEveryPictureThatItLinks)
         EXPECT_TRUE(contents.contains(name.generic_string())) << name;
     }
     EXPECT_GT(found, 30);
+    const std::set<std::string> cases = findAtlasCases(files);
+    EXPECT_GT(cases.size(), 100u);
+    for (const std::string& name : cases)
+        EXPECT_TRUE(std::filesystem::exists(kSource / "cases" / (name + ".toml"))) << name;
 }
 
 TEST(Atlas, isInAReportAsTwoPieces)
@@ -65,6 +71,7 @@ TEST(Atlas, isInAReportAsTwoPieces)
     const nlohmann::json index = readIndex(files.at("index.html"));
     EXPECT_EQ(index["atlas"], "atlas");
     EXPECT_EQ(index["atlasPictures"], "atlas-pictures");
+    EXPECT_EQ(index["atlasCases"], nlohmann::json({"d/c", "e"}));
     const std::string texts = files.at("data/atlas.js");
     EXPECT_EQ(texts.find("</script>"), std::string::npos);
     const nlohmann::json read =

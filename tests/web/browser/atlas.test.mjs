@@ -55,6 +55,16 @@ test('it has every row of the document, with the verdict of each case that the r
   assert.ok(!await page.locator('#atlas').isVisible());
   await page.goBack();
   await until(() => page.locator('#atlas').isVisible(), Boolean, 'the way back');
+
+  // And from another case to its row.
+  await page.locator('[data-name^="stability/28"], [data-name="28_behind_an_object[fov=50]"]').first().click();
+  const toAtlas = page.locator('.case-title a', { hasText: 'in the atlas' });
+  await toAtlas.click();
+  await until(() => page.locator('.atlas-table tr.shown .c0').allTextContents(), (numbers) => numbers.join() === '28, 36', 'its row');
+  assert.equal(await page.evaluate(() => document.activeElement.textContent), 'behind an object');
+  await page.locator('[data-name="floor/own"]').click();
+  await until(() => page.locator('.case-title h2').textContent(), (name) => name === 'floor/own', 'a case that the atlas does not know');
+  assert.equal(await toAtlas.count(), 0);
   assert.deepEqual(complaints, []);
   await close();
 });
@@ -129,7 +139,8 @@ test('the single file has it, too', async () => {
 for (const scheme of ['light', 'dark']) {
   test(`wide and narrow, axe-core finds nothing in the ${scheme} scheme, and nothing is cut off`, async () => {
     for (const width of [1400, 900, 420]) {
-      const { page, complaints, close } = await openAtlas('', { scheme, width });
+      const { page, complaints, close } = await openAtlas('&at=case:stability/29_the_cap_is_no_hit', { scheme, width });
+      await page.locator('.atlas .shown').waitFor();
       assert.deepEqual(await findBarriers(page), [], String(width));
       assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${width} wide`);
       const cut = await page.locator('.atlas-table td').evaluateAll((cells) => cells.filter((cell) => cell.scrollWidth > cell.clientWidth + 1).map((cell) => cell.textContent));
