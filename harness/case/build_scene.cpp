@@ -194,6 +194,8 @@ void buildScene(const TableReader& top, Case& testCase)
                          "\"screen\" is \"opaque\" and the model is \"linear\", which reads the "
                          "pixels' own depths; the other models are allowed");
     }
+    testCase.poison = {static_cast<TexelPoison>(scene.choice("poison")),
+                       static_cast<PoisonedChannel>(scene.choice("poison_channel")), scene.integer("poison_every")};
     const TableReader sky = scene.table("sky");
     testCase.scene.sky = {readVec3(sky, "zenith"), readVec3(sky, "horizon"), readVec3(sky, "nadir")};
     if (scene.has("generator")) {

@@ -111,6 +111,26 @@ struct RecordedGBuffer {
     int tracedObject = 0;             // object index of the pixels that trace
 };
 
+// Broken texels of an analytic scene's G-buffer: [scene] poison.
+enum class TexelPoison {
+    kNone = 0,
+    kNan = 1,
+    kInfinity = 2,
+    kMinusInfinity = 3,
+    kNegative = 4,
+    kZero = 5,
+    kHuge = 6 // near the largest float
+};
+enum class PoisonedChannel { kBoth = 0, kDepth = 1, kNormal = 2 };
+
+struct GBufferPoison {
+    TexelPoison texel = TexelPoison::kNone; // what a broken texel holds, a normal in each component
+    PoisonedChannel channel = PoisonedChannel::kBoth;
+    int every = 8; // pixels: both of a broken pixel's coordinates are half of it more than a multiple of it
+
+    bool operator==(const GBufferPoison&) const = default;
+};
+
 // Exactly one source.
 struct AnalyticSource {
     std::string function;
@@ -175,6 +195,7 @@ struct Case {
     std::optional<RecordedGBuffer> recorded;
     TraceEffect effect = TraceEffect::kReflection;
     ScreenLayer screenLayer = ScreenLayer::kAll; // of an analytic scene
+    GBufferPoison poison;                        // likewise
     Material material;
     Projection projection;
     std::optional<History> history; // without it colour is read from this frame

@@ -167,6 +167,20 @@ std::vector<KeySpec> sceneKeys()
             .byDefault("\"all\"")
             .says("What rays are traced in, depth and colour: every surface, or those that are not of glass, as where "
                   "what is transparent is drawn last."),
+        Key("scene", "poison", kChoice)
+            .oneOf({"none", "nan", "infinity", "minus_infinity", "negative", "zero", "huge"})
+            .byDefault("\"none\"")
+            .says("What broken texels of the G-buffer hold: no number, -1, 0, 3e38; a normal in each component. The "
+                  "truth knows nothing of it."),
+        Key("scene", "poison_channel", kChoice)
+            .oneOf({"both", "depth", "normal"})
+            .byDefault("\"both\"")
+            .says("Which of a broken pixel's texels are broken; a depth is the stored one."),
+        Key("scene", "poison_every", kInteger)
+            .atLeast(1)
+            .atMost(16384)
+            .byDefault("8")
+            .says("One pixel of so many is broken, both ways; 1: all are."),
         Key("scene", "primitives", kTableList).byDefault("[]").says("Primitives as inline tables."),
         Key("scene", "primitive", kTableList)
             .byDefault("[]")

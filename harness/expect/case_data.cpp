@@ -6,6 +6,7 @@
 #include "harness/scene/camera_frame.h"
 
 #include <algorithm>
+#include <limits>
 #include <mutex>
 #include <string_view>
 
@@ -22,11 +23,50 @@ struct CaseData::Lazy {
 
 namespace {
 
+double poisonValue(TexelPoison texel)
+{
+    switch (texel) {
+    case TexelPoison::kNan:
+        return std::numeric_limits<double>::quiet_NaN();
+    case TexelPoison::kInfinity:
+        return std::numeric_limits<double>::infinity();
+    case TexelPoison::kMinusInfinity:
+        return -std::numeric_limits<double>::infinity();
+    case TexelPoison::kNegative:
+        return -1.0;
+    case TexelPoison::kHuge:
+        return 3e38;
+    case TexelPoison::kNone:
+    case TexelPoison::kZero:
+        break;
+    }
+    return 0.0;
+}
+
+void poisonPlane(const GBufferPoison& poison, Plane& plane)
+{
+    for (int y = poison.every / 2; y < plane.height; y += poison.every)
+        for (int x = poison.every / 2; x < plane.width; x += poison.every)
+            for (int channel = 0; channel < plane.channels; ++channel)
+                plane.at(x, y, channel) = poisonValue(poison.texel);
+}
+
+// What shaders read. Which pixels trace, the truth and the closed forms know the scene.
+GBuffer renderPoisoned(const Case& testCase, const Scene& scene)
+{
+    using enum GBufferChannel;
+    GBuffer gbuffer = renderGBuffer(scene, testCase.camera, channelsFor(testCase));
+    const GBufferPoison& poison = testCase.poison;
+    if (poison.texel == TexelPoison::kNone) return gbuffer;
+    if (poison.channel != PoisonedChannel::kNormal) poisonPlane(poison, gbuffer.planes.at(kDeviceDepth));
+    if (poison.channel != PoisonedChannel::kDepth) poisonPlane(poison, gbuffer.planes.at(kNormalWS));
+    return gbuffer;
+}
+
 GBuffer makeGBuffer(const Case& testCase)
 {
-    const std::vector<GBufferChannel> channels = channelsFor(testCase);
-    if (!testCase.recorded) return renderGBuffer(testCase.scene, testCase.camera, channels);
-    return readGBuffer(testCase.recorded->file, testCase.camera, testCase.recorded->channels, channels);
+    if (!testCase.recorded) return renderPoisoned(testCase, testCase.scene);
+    return readGBuffer(testCase.recorded->file, testCase.camera, testCase.recorded->channels, channelsFor(testCase));
 }
 
 std::string_view tracedMaterial(TraceEffect effect)
@@ -162,7 +202,8 @@ Scene asSeen(Scene scene)
 
 bool showsTheSame(const Case& a, const Case& b)
 {
-    return a.camera == b.camera && isSameFile(a.recorded, b.recorded) && asSeen(a.scene) == asSeen(b.scene);
+    return a.camera == b.camera && a.poison == b.poison && isSameFile(a.recorded, b.recorded) &&
+           asSeen(a.scene) == asSeen(b.scene);
 }
 
 bool hasChannels(const GBuffer& gbuffer, const std::vector<GBufferChannel>& channels)
@@ -190,8 +231,7 @@ CaseData::CaseData(const Case& testCase, const CaseData* earlier) : testCase_(te
         if (showsSame && earlier->opaque_ && hasChannels(*earlier->opaque_, channels))
             opaque_ = earlier->opaque_;
         else
-            opaque_ = std::make_shared<const GBuffer>(
-                renderGBuffer(makeOpaqueScene(testCase.scene), testCase.camera, channels));
+            opaque_ = std::make_shared<const GBuffer>(renderPoisoned(testCase, makeOpaqueScene(testCase.scene)));
     }
     if (testCase.history) history_ = makeFrameHistory(testCase);
     if (testCase.material.thicknessMap) thicknessMap_ = makeThicknessMap(testCase);

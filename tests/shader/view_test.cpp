@@ -35,6 +35,14 @@ TEST(ShaderView, DepthOfThePlanes)
         EXPECT_TRUE(isClearedDepth(view, cleared));
         EXPECT_TRUE(isClearedDepth(view, kNaN));
         EXPECT_FALSE(isClearedDepth(view, Real(0.5)));
+        // A rounding beyond the near plane is the near plane; more was never drawn.
+        const Real beyondNear = depth == 0 ? -kUlps : 1 + kUlps;
+        EXPECT_FALSE(isClearedDepth(view, beyondNear));
+        EXPECT_NEAR(linearDepthFromDevice(view, beyondNear), Real(0.1), kUlps);
+        for (const Real impossible : {Real(-1), Real(-3e38), Real(2), Real(3e38), kInfinity, -kInfinity}) {
+            EXPECT_TRUE(isClearedDepth(view, impossible)) << impossible;
+            EXPECT_EQ(linearDepthFromDevice(view, impossible), view.farDistance) << impossible;
+        }
         EXPECT_TRUE(std::isfinite(deviceDepthFromLinear(view, 0)));
     }
     // Standard depth, near 1, far 3, at 1.5 m: f (z - n) / (z (f - n)) = 3 * 0.5 / (1.5 * 2) = 0.5.

@@ -29,12 +29,21 @@ struct ScreenPosition {
     bool inFront;      // linearDepth > 0: clip w > 0 in perspective
 };
 
-// True for the depth-buffer value of "no surface": what the buffer is cleared to, beyond it, or NaN.
-bool isClearedDepth(View view, float deviceDepth)
+// A stored depth is in [0,1]; what is nearer than the near plane's by more than a rounding was never drawn.
+const float kMostFromCleared = 1.0009765625; // 1 + 2^-10
+
+bool isSurfaceDepth(View view, float deviceDepth)
 {
     float fromCleared = choose(view.reversedDepth, deviceDepth, 1.0 - deviceDepth);
-    bool isSurface = fromCleared > 0.0;
-    return isSurface ? false : true;
+    bool isDrawn = fromCleared > 0.0;
+    bool isPossible = fromCleared < kMostFromCleared;
+    return isDrawn && isPossible;
+}
+
+// True for a depth-buffer value of "no surface": what the buffer is cleared to, what lies outside [0,1], or NaN.
+bool isClearedDepth(View view, float deviceDepth)
+{
+    return isSurfaceDepth(view, deviceDepth) ? false : true;
 }
 
 // Metres along the view axis, in (0, farDistance]. Cleared, NaN and impossible values give farDistance.
@@ -44,7 +53,8 @@ float linearDepthFromDevice(View view, float deviceDepth)
     float linearDepth = safeDivide(choose(view.orthographic, shifted, view.depthB),
                                    choose(view.orthographic, view.depthB, shifted), view.farDistance);
     float limited = min(linearDepth, view.farDistance);
-    return linearDepth > 0.0 ? limited : view.farDistance;
+    bool isAhead = linearDepth > 0.0;
+    return isAhead && isSurfaceDepth(view, deviceDepth) ? limited : view.farDistance;
 }
 
 // The stored value for a depth in metres; depths of 0 and less (perspective) give the near plane's.

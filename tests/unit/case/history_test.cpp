@@ -1,4 +1,4 @@
-// [history] and [material.thickness_map]: what they say, and what is refused.
+// [history], [material.thickness_map] and the poison of [scene]: what they say, and what is refused.
 #include "harness/case/case.h"
 
 #include "harness/base/temporary_folder.h"
@@ -60,6 +60,19 @@ TEST(CaseHistory, refusesWhatGivesNoFrame)
     EXPECT_NE(refusalOf("[history]\nup = [0, 0, 1]\n").find("give no view"), std::string::npos);
     EXPECT_NE(refusalOf("[history]\nmoved = [{ primitive = 1, by = [0, 0, 0] }]\n").find("below 1"), std::string::npos);
     EXPECT_NE(refusalOf("[history]\npoison = \"zero\"\n").find("none, nan, infinity, negative"), std::string::npos);
+}
+
+TEST(CasePoison, isOfTheSceneAndOffWhereNothingIsSaid)
+{
+    EXPECT_EQ(readText("").poison, GBufferPoison{});
+    const std::string file = std::string(kHead) +
+                             "[scene]\npoison = \"huge\"\npoison_channel = \"normal\"\n"
+                             "poison_every = 3\nprimitives = [{ shape = \"sphere\", radius = 1 }]\n"
+                             "[[expect]]\noutput = \"HitSuccess\"\nconstant = \"hit\"\n";
+    const TemporaryFolder folder("crossray-poison");
+    std::ofstream(folder.path() / "a.toml") << file;
+    const GBufferPoison expected{TexelPoison::kHuge, PoisonedChannel::kNormal, 3};
+    EXPECT_EQ(readCaseFile(folder.path() / "a.toml").at(0).poison, expected);
 }
 
 TEST(CaseThicknessMap, isAGradientOrAFile)

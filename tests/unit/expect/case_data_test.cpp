@@ -116,6 +116,38 @@ TEST(CaseData, asksOnlyForTheChannelsThatAreRead)
     EXPECT_TRUE(CaseData(testCase).gbuffer().planes.contains(GBufferChannel::kNormalWS));
 }
 
+// What the shaders read is broken, and what they are held to is not.
+TEST(CaseData, poisonIsInTheGBufferAlone)
+{
+    using enum GBufferChannel;
+    const Case whole = mirrorFloor();
+    Case broken = whole;
+    broken.poison = {TexelPoison::kNan, PoisonedChannel::kDepth, 4};
+    const CaseData wholeData(whole), brokenData(broken, wholeData);
+    const Plane& before = wholeData.gbuffer().plane(kDeviceDepth);
+    const Plane& after = brokenData.gbuffer().plane(kDeviceDepth);
+    for (int y = 0; y < after.height; ++y) {
+        for (int x = 0; x < after.width; ++x) {
+            if (x % 4 == 2 && y % 4 == 2)
+                EXPECT_TRUE(std::isnan(after.at(x, y)));
+            else
+                EXPECT_EQ(after.at(x, y), before.at(x, y));
+        }
+    }
+    EXPECT_EQ(brokenData.gbuffer().plane(kNormalWS).values, wholeData.gbuffer().plane(kNormalWS).values);
+    EXPECT_EQ(brokenData.tracedPixels(), wholeData.tracedPixels());
+    EXPECT_EQ(brokenData.surfaces()[0].normalWS, wholeData.surfaces()[0].normalWS);
+
+    broken.poison = {TexelPoison::kMinusInfinity, PoisonedChannel::kNormal, 1};
+    broken.screenLayer = ScreenLayer::kOpaque;
+    const CaseData layered(broken);
+    for (const GBuffer* gbuffer : {&layered.gbuffer(), &layered.screen()}) {
+        for (const double value : gbuffer->plane(kNormalWS).values)
+            EXPECT_EQ(value, -kInf);
+        EXPECT_TRUE(std::isfinite(gbuffer->plane(kDeviceDepth).at(2, 2)));
+    }
+}
+
 TEST(CaseData, isMadeOnceForAllThreads)
 {
     const CaseData data(mirrorFloor());
