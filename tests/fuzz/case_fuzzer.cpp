@@ -1,12 +1,15 @@
 #include "tests/fuzz/case_fuzzer.h"
 
 #include "harness/pass/pass.h"
+#include "harness/run/conditioning.h"
 #include "harness/run/execute.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace crossray {
@@ -96,18 +99,9 @@ std::optional<Finding> checkPlane(const Case& testCase, const Plane& plane, cons
     return std::nullopt;
 }
 
-// Depth and normals moved up or down by one unit in the last place of a float, by a hash of their place.
-Job moveImages(const Job& job, uint64_t seed)
+std::string nameOfClass(double value)
 {
-    Job moved = job;
-    rc::Random random(seed);
-    for (ImageDesc& image : moved.images) {
-        for (double& texel : image.texels) {
-            if (texel == 0.0 || texel == 1.0 || !std::isfinite(texel)) continue;
-            texel *= 1.0 + (random.next() % 2 == 0 ? 1.0 : -1.0) * 0x1p-23;
-        }
-    }
-    return moved;
+    return std::string(nameOf(static_cast<HitClass>(static_cast<int>(value))));
 }
 
 } // namespace
@@ -125,81 +119,87 @@ std::filesystem::path CaseFuzzer::scratchFile(int core) const
     return options_.scratch / fmt::format("core{}.toml", core);
 }
 
-std::vector<Plane> CaseFuzzer::ask(const Case& testCase, const std::string& backend, const Job& job, int core,
-                                   std::optional<Finding>& finding)
+std::vector<Plane> CaseFuzzer::ask(const Subject& subject, const std::string& backend, const Job& job)
 {
-    const JobReport report = pool_.run(backend, core, job, kPatience);
+    const JobReport report = pool_.run(backend, subject.core, job, kPatience);
     if (report.outcome != JobOutcome::kDone) {
-        const char* const what = report.outcome == JobOutcome::kTimeout ? "no answer in time" : report.text.c_str();
-        finding = Finding{FindingKind::kNoAnswer, backend, "", fmt::format("{}: {}", backend, what), 0};
-        return {};
+        throw EnvironmentError(report.outcome == JobOutcome::kTimeout ? "no answer in time" : report.text);
     }
-    return readPlanes(testCase, report.result);
+    return readPlanes(subject.data.testCase(), report.result);
 }
 
-CaseOutcome CaseFuzzer::check(const Node& root, int core)
+// All backends' answers, each checked by itself; nothing where one is at fault.
+std::vector<CaseFuzzer::Classes> CaseFuzzer::askAll(const Subject& subject, std::span<const std::string> backends,
+                                                    CaseOutcome& outcome)
+{
+    std::vector<std::string> all{"cpu64", "cpu32"};
+    all.insert(all.end(), backends.begin(), backends.end());
+    std::vector<Classes> classes;
+    for (const std::string& backend : all) {
+        std::vector<Plane> planes;
+        const auto start = std::chrono::steady_clock::now();
+        try {
+            planes = ask(subject, backend, usesDoubles(backend) ? subject.doubleJob : subject.floatJob);
+        } catch (const Error& error) {
+            outcome.finding =
+                Finding{FindingKind::kNoAnswer, backend, "", fmt::format("{}: {}", backend, error.what()), 0};
+            return {};
+        }
+        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+        outcome.asked.emplace_back(backend, took.count());
+        for (const Plane& plane : planes) {
+            outcome.finding = checkPlane(subject.data.testCase(), plane, backend);
+            if (outcome.finding) return {};
+        }
+        classes.push_back({backend, planeOf(planes, "HitSuccess").values});
+    }
+    return classes;
+}
+
+// Pixels of another class than on cpu64, where moving the inputs changes nothing there.
+void CaseFuzzer::compareClasses(const Subject& subject, const std::vector<Classes>& classes, CaseOutcome& outcome)
+{
+    const std::vector<double>& reference = classes.front().values;
+    const bool isAlike =
+        std::all_of(classes.begin(), classes.end(), [&](const Classes& each) { return each.values == reference; });
+    if (isAlike) return;
+    const Conditioning conditioning =
+        measureConditioning(subject.data.testCase(), subject.floatJob, subject.doubleJob,
+                            [&](const std::string& backend, const Job& job) { return ask(subject, backend, job); });
+    if (!conditioning.note.empty()) {
+        outcome.finding = Finding{FindingKind::kNoAnswer, "", "", "with moved inputs: " + conditioning.note, 0};
+        return;
+    }
+    const Mask undecidable = findUndecidable(conditioning, "HitSuccess", kUndecidableAbove);
+    const auto width = static_cast<size_t>(subject.data.testCase().camera.width);
+    for (size_t pixel = 0; pixel < reference.size(); ++pixel) {
+        bool differs = false;
+        for (const Classes& each : classes) {
+            if (each.values[pixel] == reference[pixel]) continue;
+            differs = true;
+            if (undecidable[pixel] != 0 || outcome.finding) continue;
+            outcome.finding = Finding{FindingKind::kClass, each.backend, "HitSuccess",
+                                      fmt::format("HitSuccess on {}: {} at ({}, {}), {} on cpu64", each.backend,
+                                                  nameOfClass(each.values[pixel]), pixel % width, pixel / width,
+                                                  nameOfClass(reference[pixel])),
+                                      0};
+        }
+        outcome.differingPixels += differs;
+        outcome.undecidablePixels += differs && undecidable[pixel] != 0;
+    }
+}
+
+CaseOutcome CaseFuzzer::check(const Node& root, int core, std::span<const std::string> backends)
 {
     CaseOutcome outcome;
     try {
         const CaseData data(readTree(root, scratchFile(core)));
-        const Case& testCase = data.testCase();
-        const Job floatJob = buildJob(data, compiler_, options_.shaders, Precision::kFloat);
-        const Job doubleJob = buildJob(data, compiler_, options_.shaders, Precision::kDouble);
-        std::vector<std::string> backends{"cpu64", "cpu32"};
-        backends.insert(backends.end(), options_.backends.begin(), options_.backends.end());
         const std::vector<bool>& traced = data.tracedPixels();
         outcome.pixels = static_cast<size_t>(std::count(traced.begin(), traced.end(), true));
-
-        std::vector<double> reference; // classes on cpu64
-        std::vector<std::pair<std::string, std::vector<double>>> classes;
-        for (const std::string& backend : backends) {
-            const std::vector<Plane> planes =
-                ask(testCase, backend, usesDoubles(backend) ? doubleJob : floatJob, core, outcome.finding);
-            if (outcome.finding) return outcome;
-            for (const Plane& plane : planes) {
-                outcome.finding = checkPlane(testCase, plane, backend);
-                if (outcome.finding) return outcome;
-            }
-            classes.emplace_back(backend, planeOf(planes, "HitSuccess").values);
-        }
-        reference = classes.front().second;
-        std::vector<bool> differs(reference.size());
-        for (const auto& [backend, values] : classes) {
-            for (size_t pixel = 0; pixel < values.size(); ++pixel)
-                differs[pixel] = differs[pixel] || values[pixel] != reference[pixel];
-        }
-        outcome.differingPixels = static_cast<size_t>(std::count(differs.begin(), differs.end(), true));
-        if (outcome.differingPixels == 0) return outcome;
-        std::vector<bool> undecidable(reference.size());
-        for (uint64_t move = 1; move <= 6; ++move) {
-            for (const std::string backend : {"cpu64", "cpu32"}) {
-                const Job moved = moveImages(usesDoubles(backend) ? doubleJob : floatJob, move);
-                const std::vector<Plane> planes = ask(testCase, backend, moved, core, outcome.finding);
-                if (outcome.finding) return outcome;
-                const std::vector<double>& values = planeOf(planes, "HitSuccess").values;
-                for (size_t pixel = 0; pixel < values.size(); ++pixel)
-                    undecidable[pixel] = undecidable[pixel] || values[pixel] != reference[pixel];
-            }
-        }
-        for (const auto& [backend, values] : classes) {
-            for (size_t pixel = 0; pixel < values.size(); ++pixel) {
-                if (values[pixel] == reference[pixel]) continue;
-                if (undecidable[pixel]) {
-                    ++outcome.undecidablePixels;
-                    continue;
-                }
-                const auto nameAt = [&](double value) {
-                    return nameOf(static_cast<HitClass>(static_cast<int>(value)));
-                };
-                outcome.finding =
-                    Finding{FindingKind::kClass, backend, "HitSuccess",
-                            fmt::format("HitSuccess on {}: {} at ({}, {}), {} on cpu64", backend, nameAt(values[pixel]),
-                                        pixel % static_cast<size_t>(testCase.camera.width),
-                                        pixel / static_cast<size_t>(testCase.camera.width), nameAt(reference[pixel])),
-                            0};
-                return outcome;
-            }
-        }
+        const Subject subject{data, buildJob(data, compiler_, options_.shaders, Precision::kFloat),
+                              buildJob(data, compiler_, options_.shaders, Precision::kDouble), core};
+        const std::vector<Classes> classes = askAll(subject, backends, outcome);
+        if (!outcome.finding) compareClasses(subject, classes, outcome);
     } catch (const InputError& error) {
         outcome.refused = error.what();
     } catch (const ShaderError& error) {
@@ -208,8 +208,13 @@ CaseOutcome CaseFuzzer::check(const Node& root, int core)
     return outcome;
 }
 
-Node CaseFuzzer::minimize(const rc::Shrinkable<Node>& failing, Finding& finding, int core, int budget)
+Node CaseFuzzer::minimize(const rc::Shrinkable<Node>& failing, Finding& finding, int core,
+                          std::span<const std::string> backends, int budget)
 {
+    // Only the backend at fault is asked again.
+    std::vector<std::string> suspects;
+    std::copy_if(backends.begin(), backends.end(), std::back_inserter(suspects),
+                 [&](const std::string& backend) { return backend == finding.backend; });
     rc::Shrinkable<Node> smallest = failing;
     for (bool isSmaller = true; isSmaller && budget > 0;) {
         isSmaller = false;
@@ -217,7 +222,7 @@ Node CaseFuzzer::minimize(const rc::Shrinkable<Node>& failing, Finding& finding,
         while (budget > 0) {
             const rc::Maybe<rc::Shrinkable<Node>> next = shrinks.next();
             if (!next) break;
-            const CaseOutcome outcome = check(next->value(), core);
+            const CaseOutcome outcome = check(next->value(), core, suspects);
             if (outcome.refused.empty()) --budget; // what is refused costs next to nothing
             if (!outcome.finding || outcome.finding->kind != finding.kind ||
                 outcome.finding->backend != finding.backend)

@@ -7,7 +7,9 @@
 #include "harness/run/worker_pool.h"
 
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace crossray {
@@ -16,7 +18,7 @@ enum class FindingKind {
     kNotFinite,  // an output holds a NaN, or what no float holds
     kRange,      // a weight or a share outside of [0, 1], a class or count that is none
     kIterations, // more than the settings allow
-    kClass,      // hit, miss or unknown by backend, where an ulp of input changes nothing
+    kClass,      // hit, miss or unknown by backend, where the question can be decided (harness/run/conditioning.h)
     kNoAnswer,   // a crash, a time-out, a shader that a driver refuses
 };
 
@@ -33,13 +35,13 @@ struct CaseOutcome {
     size_t pixels = 0;            // that trace
     size_t differingPixels = 0;   // whose class is not cpu64's on some backend
     size_t undecidablePixels = 0; // of those: the ones whose class an ulp of input changes, too
+    std::vector<std::pair<std::string, double>> asked; // backends that answered, seconds
     std::optional<Finding> finding;
 };
 
 class CaseFuzzer {
   public:
     struct Options {
-        std::vector<std::string> backends; // beside cpu64 and cpu32
         std::filesystem::path shaders, cache, scratch;
         std::string executable; // of the workers
         int cores = 1;
@@ -48,14 +50,27 @@ class CaseFuzzer {
 
     // One file and one set of workers a core.
     std::filesystem::path scratchFile(int core) const;
-    CaseOutcome check(const Node& root, int core);
+    // `backends` are asked beside cpu64 and cpu32.
+    CaseOutcome check(const Node& root, int core, std::span<const std::string> backends);
     // Follows the shrinks for as long as one fails in the same way, `budget` checks at most.
     // `finding` becomes that of the smallest.
-    Node minimize(const rc::Shrinkable<Node>& failing, Finding& finding, int core, int budget);
+    Node minimize(const rc::Shrinkable<Node>& failing, Finding& finding, int core,
+                  std::span<const std::string> backends, int budget);
 
   private:
-    std::vector<Plane> ask(const Case& testCase, const std::string& backend, const Job& job, int core,
-                           std::optional<Finding>& finding);
+    struct Subject { // one case on its way through the backends
+        const CaseData& data;
+        Job floatJob, doubleJob;
+        int core;
+    };
+    struct Classes { // HitSuccess by pixel
+        std::string backend;
+        std::vector<double> values;
+    };
+
+    std::vector<Plane> ask(const Subject& subject, const std::string& backend, const Job& job); // throws Error
+    std::vector<Classes> askAll(const Subject& subject, std::span<const std::string> backends, CaseOutcome& outcome);
+    void compareClasses(const Subject& subject, const std::vector<Classes>& classes, CaseOutcome& outcome);
 
     Options options_;
     ShaderCompiler compiler_;

@@ -34,6 +34,7 @@ class Dice {
 double costlyFrom(const KeySpec& spec)
 {
     if (spec.path() == "scene.size" || spec.path() == "probe.mirror.size") return 24;
+    if (spec.path() == "scene.poison_every") return 12; // beyond that no texel of these images
     if (spec.path() == "environment.size") return 32;
     if (spec.path() == "environment.bounces") return 2;
     if (spec.path() == "scene.primitives.object") return 4;
@@ -124,6 +125,7 @@ class Drawer {
     static double presence(const KeySpec& spec)
     {
         if (spec.table == "environment" && spec.defaultWords == "one content is required") return 0.3;
+        if (spec.path() == "scene.poison") return 0.25;
         if (spec.key == "history" || spec.key == "probe_profile") return 0.3;
         if (spec.path() == "material.refraction_model") return 0.5;
         if (spec.path() == "scene.generator" || spec.path() == "scene.seed") return 0.4;

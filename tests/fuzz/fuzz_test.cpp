@@ -25,6 +25,7 @@ namespace {
 // Cases that share their names and switches, and so most of their shader variants: compiling one takes as long as
 // running a hundred.
 constexpr uint64_t kCasesPerVariant = 40;
+constexpr uint64_t kAllDriversEvery = 5; // no multiple of the number of drivers
 constexpr int kCores = 2;
 constexpr int kMostCuts = 300;
 
@@ -34,11 +35,11 @@ uint64_t readVariable(const char* name, uint64_t otherwise)
     return text ? std::strtoull(text, nullptr, 10) : otherwise;
 }
 
-// Float backends beside cpu32, where they are installed.
-std::vector<std::string> chooseBackends()
+// Drivers beside cpu64 and cpu32, where they are installed.
+std::vector<std::string> findDrivers()
 {
     const char* const asked = std::getenv("CROSSRAY_FUZZ_BACKENDS");
-    std::istringstream list(asked ? asked : "lavapipe");
+    std::istringstream list(asked ? asked : "lavapipe,osmesa,swiftshader,softpipe");
     std::vector<std::string> names;
     for (std::string name; std::getline(list, name, ',');) {
         for (const BackendInfo& info : listBackends()) {
@@ -48,10 +49,18 @@ std::vector<std::string> chooseBackends()
     return names;
 }
 
+// A driver compiles each variant for as long as it runs a hundred cases: the cases that share variants share one
+// driver, and every fifth group of them is run by all.
+std::vector<std::string> chooseDrivers(const std::vector<std::string>& drivers, uint64_t seed)
+{
+    const uint64_t group = seed / kCasesPerVariant;
+    if (drivers.empty() || group % kAllDriversEvery == kAllDriversEvery - 1) return drivers;
+    return {drivers[group % drivers.size()]};
+}
+
 CaseFuzzer::Options makeOptions(const fs::path& shaders, const char* scratch)
 {
     CaseFuzzer::Options options;
-    options.backends = chooseBackends();
     options.shaders = shaders;
     options.cache = CROSSRAY_BINARY_DIR "/fuzz-cache";
     options.scratch = fs::path(CROSSRAY_BINARY_DIR) / scratch;
@@ -67,6 +76,11 @@ rc::Shrinkable<Node> drawFuzzCase(const CaseFuzzer& fuzzer, uint64_t seed, int c
 
 struct Totals {
     size_t refused = 0, untraced = 0, rays = 0, differing = 0, undecidable = 0, findings = 0;
+    struct Share {
+        size_t cases = 0;
+        double seconds = 0;
+    };
+    std::map<std::string, Share> byBackend;
 
     void add(const CaseOutcome& outcome)
     {
@@ -76,13 +90,25 @@ struct Totals {
         differing += outcome.differingPixels;
         undecidable += outcome.undecidablePixels;
         findings += outcome.finding.has_value();
+        for (const auto& [backend, seconds] : outcome.asked) {
+            ++byBackend[backend].cases;
+            byBackend[backend].seconds += seconds;
+        }
+    }
+
+    void print(uint64_t cases) const
+    {
+        fmt::print("{} cases, {} refused, {} without rays, {} rays, {} of another class than on cpu64, of which {} are "
+                   "undecidable; {} findings\n",
+                   cases, refused, untraced, rays, differing, undecidable, findings);
+        for (const auto& [backend, share] : byBackend)
+            fmt::print("  {:<12} {:>6} cases {:>8.1f} s\n", backend, share.cases, share.seconds);
     }
 };
 
-void reportFinding(const CaseFuzzer& fuzzer, const CaseFuzzer::Options& options, uint64_t seed, const Node& smallest,
+void reportFinding(const CaseFuzzer& fuzzer, std::vector<std::string> backends, uint64_t seed, const Node& smallest,
                    const Finding& finding)
 {
-    std::vector<std::string> backends = options.backends;
     backends.insert(backends.end(), {"cpu32", "cpu64"});
     const std::string name = fmt::format("found_{}", seed);
     const fs::path file = fuzzer.scratchFile(0).parent_path() / (name + ".toml");
@@ -98,6 +124,7 @@ TEST(Fuzz, RandomCasesAreFiniteBoundedAndAgree)
 {
     const uint64_t first = readVariable("CROSSRAY_FUZZ_FIRST", 0), count = readVariable("CROSSRAY_FUZZ_CASES", 500);
     const CaseFuzzer::Options options = makeOptions(fs::path(CROSSRAY_SOURCE_DIR) / "shaders", "fuzz");
+    const std::vector<std::string> drivers = findDrivers();
     CaseFuzzer fuzzer(options);
     std::atomic<uint64_t> next = first / kCasesPerVariant;
     std::mutex mutex;
@@ -108,12 +135,13 @@ TEST(Fuzz, RandomCasesAreFiniteBoundedAndAgree)
             const uint64_t end = std::min(first + count, (group + 1) * kCasesPerVariant);
             for (uint64_t seed = begin; seed < end; ++seed) {
                 const rc::Shrinkable<Node> drawn = drawFuzzCase(fuzzer, seed, core);
-                CaseOutcome outcome = fuzzer.check(drawn.value(), core);
+                const std::vector<std::string> asked = chooseDrivers(drivers, seed);
+                CaseOutcome outcome = fuzzer.check(drawn.value(), core, asked);
                 std::optional<Node> smallest;
-                if (outcome.finding) smallest = fuzzer.minimize(drawn, *outcome.finding, core, kMostCuts);
+                if (outcome.finding) smallest = fuzzer.minimize(drawn, *outcome.finding, core, asked, kMostCuts);
                 const std::lock_guard lock(mutex);
                 totals.add(outcome);
-                if (outcome.finding) reportFinding(fuzzer, options, seed, *smallest, *outcome.finding);
+                if (outcome.finding) reportFinding(fuzzer, asked, seed, *smallest, *outcome.finding);
             }
             if (count >= 2000) fmt::print(stderr, "to {}: {} rays, {} findings\n", end, totals.rays, totals.findings);
         }
@@ -123,10 +151,7 @@ TEST(Fuzz, RandomCasesAreFiniteBoundedAndAgree)
         for (int core = 0; core < kCores; ++core)
             threads.emplace_back(serve, core);
     }
-    fmt::print("{} cases, {} refused, {} without rays, {} rays, {} of another class than on cpu64, of which {} are "
-               "undecidable; {} findings\n",
-               count, totals.refused, totals.untraced, totals.rays, totals.differing, totals.undecidable,
-               totals.findings);
+    totals.print(count);
     if (count < 100) return;
     // Else the cases ask for nothing.
     EXPECT_LT(totals.refused, count / 10);
@@ -182,14 +207,16 @@ TEST(Fuzz, AFaultIsFoundCutDownAndWrittenAsACase)
     std::ofstream(faulty) << code;
 
     const CaseFuzzer::Options options = makeOptions(shaders, "fuzz-fault");
-    if (options.backends.empty()) GTEST_SKIP() << "no driver is installed";
+    std::vector<std::string> drivers = findDrivers();
+    if (drivers.empty()) GTEST_SKIP() << "no driver is installed";
+    drivers.resize(1);
     CaseFuzzer fuzzer(options);
     std::optional<Finding> finding;
     Node smallest;
     for (uint64_t seed = 0; seed < 800 && !finding; ++seed) {
         const rc::Shrinkable<Node> drawn = drawFuzzCase(fuzzer, seed, 0);
-        finding = fuzzer.check(drawn.value(), 0).finding;
-        if (finding) smallest = fuzzer.minimize(drawn, *finding, 0, kMostCuts);
+        finding = fuzzer.check(drawn.value(), 0, drivers).finding;
+        if (finding) smallest = fuzzer.minimize(drawn, *finding, 0, drivers, kMostCuts);
     }
     ASSERT_TRUE(finding);
     EXPECT_EQ(finding->kind, FindingKind::kRange) << finding->text;
@@ -199,11 +226,11 @@ TEST(Fuzz, AFaultIsFoundCutDownAndWrittenAsACase)
         EXPECT_EQ(smallest.find(gone), nullptr) << gone;
 
     const fs::path file = folder.path() / "found.toml";
-    std::ofstream(file) << formatFinding(smallest, *finding, "found", {options.backends.front(), "cpu64"});
+    std::ofstream(file) << formatFinding(smallest, *finding, "found", {drivers.front(), "cpu64"});
     const auto run = [&](const fs::path& root) {
         const std::string command =
             fmt::format("{}/crossray run {} --backend {} --shaders {} --no-report --progress none -o {} >{} 2>&1",
-                        CROSSRAY_BINARY_DIR, file.string(), options.backends.front(), root.string(),
+                        CROSSRAY_BINARY_DIR, file.string(), drivers.front(), root.string(),
                         (folder.path() / "run").string(), (folder.path() / "log").string());
         return WEXITSTATUS(std::system(command.c_str()));
     };
