@@ -30,6 +30,11 @@ void addMutate(CLI::App& app, CommandLine& line)
                     "Look for cases that catch nothing: each that was never the first is asked about up to N mutants")
         ->type_name("N")
         ->check(CLI::Range(1, 10000));
+    verb.add_option(
+            "--ask", options.askAtMost,
+            "Ask at most N cases about a mutant, the likeliest first, before it counts as survived; default: all")
+        ->type_name("N")
+        ->check(CLI::Range(size_t{1}, size_t{1000000}));
     verb.add_option("--min-score", options.minScore, "Exit code 1 below this score")
         ->type_name("PERCENT")
         ->check(CLI::Range(0.0, 100.0));

@@ -168,6 +168,8 @@ int mutateShaders(const GlobalOptions& global, const MutateOptions& options)
     hunting.backend = options.backend;
     hunting.threads = options.jobs > 0 ? options.jobs : countAvailableCores();
     hunting.idleTries = options.idleTries;
+    hunting.askAtMost = options.askAtMost;
+    choice.askAtMost = options.askAtMost;
     if (!options.tryEquivalents) {
         hunting.isEquivalent = [&](const Mutation& mutation) {
             return std::any_of(equivalents.begin(), equivalents.end(),

@@ -27,7 +27,7 @@ struct SelectionOptions {
     std::vector<std::string> arguments;
     std::string expression;
     std::vector<std::string> tags;
-    std::string shard;   // "2/4", "auto", ...; empty: all
+    std::string shard; // "2/4", "auto", ...; empty: all
     bool lastFailed = false;
     std::string timings = {}; // a run by whose times the shards are balanced; empty: none
 };
@@ -201,9 +201,10 @@ struct MutateOptions {
     std::string backend = "lavapipe";
     int jobs = 0; // 0: all there are
     int idleTries = 0;
-    double minScore = 0;        // percent
-    std::string json, output;   // a file; a folder; empty: none
-    std::string equivalents;    // file; empty: the source tree's
+    size_t askAtMost = 0;        // 0: all
+    double minScore = 0;         // percent
+    std::string json, output;    // a file; a folder; empty: none
+    std::string equivalents;     // file; empty: the source tree's
     bool tryEquivalents = false; // run them like the others
     bool list = false, verbose = false;
 };

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <fstream>
 #include <map>
 
 namespace crossray {
@@ -40,6 +41,18 @@ size_t countDifferent(const Plane& a, const Plane& b)
         }
     }
     return count;
+}
+
+std::set<std::string> findIncludes(const std::filesystem::path& tracer)
+{
+    constexpr std::string_view kInclude = "#include \"";
+    std::set<std::string> found;
+    std::ifstream file(tracer);
+    for (std::string line; std::getline(file, line);) {
+        if (!line.starts_with(kInclude)) continue;
+        found.insert(line.substr(kInclude.size(), line.find('"', kInclude.size()) - kInclude.size()));
+    }
+    return found;
 }
 
 } // namespace
@@ -75,6 +88,7 @@ AskedCase::AskedCase(const Case& original, Case widened, MutantLibrary& library)
     const Job job = buildJob(data, compiler, library.root(), Precision::kFloat);
     for (const ProgramSource& program : job.programs) {
         const bool isOwn = program.entry == "entry/own_trace.comp";
+        if (isOwn) included_ = findIncludes(original_.projection.own.tracer);
         programs_.push_back(
             {program.entry, isOwn ? original_.projection.own.tracer : std::filesystem::path{}, program.specialization});
     }

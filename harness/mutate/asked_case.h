@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,8 @@ class AskedCase {
     const Case& testCase() const { return original_; }
     const std::vector<ProgramKey>& programs() const { return programs_; }
     double pixels() const;
+    // Whether it was written for this file of the library: its own tracer includes it.
+    bool isAbout(const std::string& file) const { return included_.contains(file); }
 
     // Builds the job and asks for the answer of the library as it is: once, whoever comes first. Returns why the case
     // takes no part; empty where it does.
@@ -53,6 +56,7 @@ class AskedCase {
 
     Case original_, widened_;
     std::vector<ProgramKey> programs_;
+    std::set<std::string> included_; // by its own tracer itself
     std::mutex making_;
     bool isReady_ = false;
     std::string leftOut_;

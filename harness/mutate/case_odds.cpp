@@ -11,27 +11,30 @@ CaseOdds::Records& CaseOdds::recordsOf(const std::string& key)
     return records;
 }
 
-CaseOdds::Choice CaseOdds::start(std::string file, std::string function, std::vector<size_t> candidates)
+CaseOdds::Choice CaseOdds::start(std::string file, std::string function, std::vector<size_t> candidates,
+                                 std::set<size_t> likely)
 {
     Choice choice;
     choice.odds_ = this;
     choice.function_ = file + " " + function;
     choice.file_ = std::move(file);
     choice.left_ = std::move(candidates);
+    choice.likely_ = std::move(likely);
     return choice;
 }
 
 std::optional<size_t> CaseOdds::Choice::next(const std::function<double(size_t)>& milliseconds)
 {
     if (left_.empty()) return std::nullopt;
-    constexpr double kUnknown = 0.15,
-                     kFileWeight = 0.25; // a case that was never asked; a file counts less than a function
+    constexpr double kUnknown = 0.15, kLikely = 3; // what a case that was never asked counts as having caught
+    constexpr double kFileWeight = 0.25;           // a file counts less than a function
     const std::lock_guard lock(odds_->mutex_);
     const Records& ofFile = odds_->recordsOf(file_);
     const Records& ofFunction = odds_->recordsOf(function_);
     const auto rate = [&](size_t testCase) {
         const Record &file = ofFile[testCase], &function = ofFunction[testCase];
-        const double caught = kUnknown + function.caught + kFileWeight * file.caught;
+        const double unknown = likely_.contains(testCase) ? kLikely : kUnknown;
+        const double caught = unknown + function.caught + kFileWeight * file.caught;
         const double asked = 1 + function.asked + kFileWeight * file.asked;
         return caught / asked / milliseconds(testCase);
     };

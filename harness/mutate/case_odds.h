@@ -8,6 +8,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,7 @@ class CaseOdds {
   public:
     explicit CaseOdds(size_t cases) : cases_(cases) {}
 
-    // The order for one mutant.
+    // The order for one mutant; `likely` are those of the candidates that were written for its file.
     class Choice {
       public:
         // Nothing when all have been asked or dropped. `milliseconds` estimates what a case takes.
@@ -31,8 +32,9 @@ class CaseOdds {
         CaseOdds* odds_ = nullptr;
         std::string file_, function_;
         std::vector<size_t> left_;
+        std::set<size_t> likely_;
     };
-    Choice start(std::string file, std::string function, std::vector<size_t> candidates);
+    Choice start(std::string file, std::string function, std::vector<size_t> candidates, std::set<size_t> likely = {});
 
   private:
     struct Record {

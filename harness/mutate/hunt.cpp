@@ -246,7 +246,11 @@ class Hunt {
         result.reached = candidates.size();
         result.end = MutantEnd::kUnreached;
         if (candidates.empty()) return;
-        CaseOdds::Choice choice = odds_->start(result.mutation.file, result.mutation.function, candidates);
+        std::set<size_t> likely;
+        for (const size_t candidate : candidates) {
+            if (cases_[candidate]->isAbout(result.mutation.file)) likely.insert(candidate);
+        }
+        CaseOdds::Choice choice = odds_->start(result.mutation.file, result.mutation.function, candidates, likely);
         while (const std::optional<size_t> next =
                    choice.next([&](size_t index) { return estimate(index, programs); })) {
             AskedCase& testCase = *cases_[*next];
@@ -271,6 +275,7 @@ class Hunt {
                 break;
             }
             keepSeen(result.seen, std::move(finding.seen));
+            if (result.asked == options_.askAtMost) break;
         }
         replaceWorker(core, programs.count());
     }

@@ -56,6 +56,8 @@ struct HuntOptions {
     // For cases that were never the first to catch anything: so many caught mutants are tried on each before it counts
     // as idle. 0: not looked for.
     int idleTries = 0;
+    size_t askAtMost =
+        0; // cases a mutant, the likeliest first, after which it counts as survived; 0: all that reach it
     std::function<bool(const Mutation&)> isEquivalent;                        // empty: none is
     std::function<void(const MutantResult&, size_t done, size_t all)> report; // one at a time, from any thread
 };

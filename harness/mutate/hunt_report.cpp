@@ -179,6 +179,12 @@ std::string formatHuntMarkdown(const HuntResult& hunt, const HuntChoice& choice)
                     all.survived, formatScore(all));
     text += fmt::format("    {}\n\n{:.0f} s{}.\n\n", choice.command, hunt.seconds,
                         choice.commit.empty() ? "" : ", commit " + choice.commit);
+    if (choice.askAtMost > 0) {
+        text += fmt::format("At most {} cases were asked about each, the likeliest first: what survived them may be "
+                            "caught by others, so "
+                            "the score is a lower bound.\n\n",
+                            choice.askAtMost);
+    }
     std::vector<HuntCounts> rows = countByFile(hunt);
     rows.push_back(all);
     text += "## Files\n\n" + formatMarkdownTable(rows, "file");
@@ -218,6 +224,7 @@ std::string formatHuntJson(const HuntResult& hunt, const HuntChoice& choice)
               {"commit", choice.commit},
               {"planted", choice.planted},
               {"seed", choice.seed},
+              {"askAtMost", choice.askAtMost},
               {"seconds", hunt.seconds},
               {"backend", hunt.fingerprint.backend},
               {"device", hunt.fingerprint.device},

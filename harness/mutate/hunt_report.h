@@ -29,6 +29,7 @@ struct HuntChoice {
     std::string command, commit;
     size_t planted = 0; // all that there are; those of the result are a part of them
     uint64_t seed = 0;
+    size_t askAtMost = 0; // HuntOptions
 };
 
 std::string formatHuntTable(const HuntResult& hunt);

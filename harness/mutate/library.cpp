@@ -18,6 +18,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
+// What an own tracer calls the functions of a file that it includes once more, with hooks of its own (cases/library).
+constexpr std::string_view kCopyPrefix = "copyOf_";
+
 size_t countFunctions(const std::vector<uint32_t>& spirv)
 {
     size_t count = 0;
@@ -129,8 +132,11 @@ MutantLibrary::Variant& MutantLibrary::variantOf(const ProgramKey& program)
     if (!slot->done) {
         Variant& variant = slot->value;
         variant.mangled = parsed.functions->find(program.specialization);
-        for (const std::string& name : variant.mangled)
-            variant.reach.insert(name.substr(0, name.find('(')));
+        for (const std::string& mangled : variant.mangled) {
+            std::string name = mangled.substr(0, mangled.find('('));
+            if (name.starts_with(kCopyPrefix)) name.erase(0, kCopyPrefix.size());
+            variant.reach.insert(std::move(name));
+        }
         slot->done = true;
     }
     return slot->value;

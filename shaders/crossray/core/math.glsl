@@ -58,7 +58,9 @@ vec3 saturate(vec3 v)
     return vec3(saturate(v.x), saturate(v.y), saturate(v.z));
 }
 
-// True for a number: neither NaN nor infinite nor beyond 1e37.
+// True for a number: neither NaN nor infinite nor beyond 1e37; of a vector the magnitudes together. They are compared as
+// one number: Mesa 22.3 turns what hangs on `all(lessThan(...))` round into what hangs on `any` of `>=`, which is false
+// for a NaN.
 bool isFinite(float x)
 {
     return abs(x) < 1e37;
@@ -66,17 +68,17 @@ bool isFinite(float x)
 
 bool isFinite(vec2 v)
 {
-    return all(lessThan(abs(v), vec2(1e37)));
+    return abs(v.x) + abs(v.y) < 1e37;
 }
 
 bool isFinite(vec3 v)
 {
-    return all(lessThan(abs(v), vec3(1e37)));
+    return abs(v.x) + abs(v.y) + abs(v.z) < 1e37;
 }
 
 bool isFinite(vec4 v)
 {
-    return all(lessThan(abs(v), vec4(1e37)));
+    return abs(v.x) + abs(v.y) + abs(v.z) + abs(v.w) < 1e37;
 }
 
 // x where it is finite, else the fallback.

@@ -1,0 +1,58 @@
+// Made by tables.py: functions of the library on the rows of data/. Confidence is 1 where the row's answers are right; else HitDepth
+// says which is wrong first (function * 100 + output, from 1), and HitPositionSS what it was and what was expected.
+#include "crossray/probe/parallax.glsl"
+#include "crossray/probe/box_projection.glsl"
+#include "crossray/probe/shapes.glsl"
+
+int wrongCheck = 0; // function * 100 + output, from 1, of the first wrong answer; what it was, and what was expected
+vec2 wrongAnswer = vec2(0.0);
+
+void check(int which, float answer, float expected, float relative, float absolute)
+{
+    bool isRight = abs(answer - expected) <= max(absolute, relative * abs(expected)); // false for a NaN
+    bool isFirst = !isRight && wrongCheck == 0;
+    wrongCheck = isFirst ? which : wrongCheck;
+    wrongAnswer = isFirst ? vec2(answer, expected) : wrongAnswer;
+}
+
+float number(bool condition) { return condition ? 1.0 : 0.0; }
+
+// A rotation without a zero: its columns are the axes.
+mat3 tableTurn(bool turned)
+{
+    mat3 turn = mat3(vec3(2.0, 2.0, -1.0) / 3.0, vec3(-1.0, 2.0, 2.0) / 3.0, vec3(2.0, -1.0, 2.0) / 3.0);
+    return turned ? turn : mat3(1.0);
+}
+
+void checkBoxProjection(int tableRow)
+{
+    vec3 d0 = ownNormalWS(ivec2(1, tableRow));
+    vec3 d1 = ownNormalWS(ivec2(2, tableRow));
+    vec3 d2 = ownNormalWS(ivec2(3, tableRow));
+    vec3 d3 = ownNormalWS(ivec2(4, tableRow));
+    vec3 d4 = ownNormalWS(ivec2(5, tableRow));
+    vec3 d5 = ownNormalWS(ivec2(6, tableRow));
+    vec3 d6 = ownNormalWS(ivec2(7, tableRow));
+    vec3 d7 = ownNormalWS(ivec2(8, tableRow));
+    int f = int(d0.x);
+    vec3 p = vec3(d0.y, d0.z, d1.x);
+    vec3 d = vec3(d1.y, d1.z, d2.x);
+    vec3 low = vec3(d2.y, d2.z, d3.x);
+    vec3 high = vec3(d3.y, d3.z, d4.x);
+    vec4 q = vec4(d4.y, d4.z, d5.x, d5.y);
+    ProbeBox box = ProbeBox(low, high, q);
+    BoxProjection b = computeBoxProjectionDivision(p, d, box);
+    if (f == 1) b = computeBoxProjectionSelect(p, d, box);
+    check(1, b.dirWS.x, d5.z, 1e-05, 2e-05);
+    check(2, b.dirWS.y, d6.x, 1e-05, 2e-05);
+    check(3, b.dirWS.z, d6.y, 1e-05, 2e-05);
+    check(4, b.distance, d6.z, 1e-05, 2e-05);
+    check(5, number(b.applied), d7.x, 1e-05, 2e-05);
+}
+
+OwnHit traceOwn(OwnRay ray)
+{
+    int row = ray.pixel.y;
+    if (row >= 0 && row <= 1) checkBoxProjection(row);
+    return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
+}

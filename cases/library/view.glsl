@@ -1,0 +1,172 @@
+// Made by tables.py: functions of the library on the rows of data/. Confidence is 1 where the row's answers are right; else HitDepth
+// says which is wrong first (function * 100 + output, from 1), and HitPositionSS what it was and what was expected.
+#include "crossray/core/ray_ndc.glsl"
+#include "crossray/core/view.glsl"
+
+int wrongCheck = 0; // function * 100 + output, from 1, of the first wrong answer; what it was, and what was expected
+vec2 wrongAnswer = vec2(0.0);
+
+void check(int which, float answer, float expected, float relative, float absolute)
+{
+    bool isRight = abs(answer - expected) <= max(absolute, relative * abs(expected)); // false for a NaN
+    bool isFirst = !isRight && wrongCheck == 0;
+    wrongCheck = isFirst ? which : wrongCheck;
+    wrongAnswer = isFirst ? vec2(answer, expected) : wrongAnswer;
+}
+
+float number(bool condition) { return condition ? 1.0 : 0.0; }
+
+// Cameras of one place and turn: perspective and orthographic, standard and reversed depth; images of 64 x 48 pixels.
+View tableView(bool orthographic, bool reversed)
+{
+    vec4 right = vec4(2.0, 2.0, -1.0, 0.0) / 3.0;
+    vec4 up = vec4(-1.0, 2.0, 2.0, 0.0) / 3.0;
+    vec4 back = vec4(2.0, -1.0, 2.0, 0.0) / 3.0;
+    mat4 world = mat4(right, up, back, vec4(1.0, 2.0, 3.0, 1.0));
+    mat4 view = transpose(mat4(right, up, back, vec4(0.0, 0.0, 0.0, 1.0)));
+    view[3] = vec4(-(view * vec4(1.0, 2.0, 3.0, 0.0)).xyz, 1.0);
+    float nearDistance = 0.5;
+    float farDistance = 64.0;
+    // Depth 0 at the near plane and 1 at the far one, and its mirror image.
+    float b = orthographic ? 1.0 / 63.5 : -32.0 / 63.5;
+    float a = orthographic ? -0.5 / 63.5 : 64.0 / 63.5;
+    a = reversed ? 1.0 - a : a;
+    b = reversed ? -b : b;
+    vec2 slope = vec2(0.8, 0.5);
+    float z = orthographic ? -1.0 : 0.0;
+    mat4 clip = orthographic ? mat4(vec4(1.25, 0.0, 0.0, 0.0), vec4(0.0, 2.0, 0.0, 0.0), vec4(0.0, 0.0, -b, 0.0), vec4(0.0, 0.0, a, 1.0))
+                             : mat4(vec4(1.25, 0.0, 0.0, 0.0), vec4(0.0, 2.0, 0.0, 0.0), vec4(0.0, 0.0, -a, -1.0), vec4(0.0, 0.0, b, 0.0));
+    return View(view, world, clip, vec2(64.0, 48.0), slope, a, b, nearDistance, farDistance, orthographic, reversed);
+}
+
+void checkDepths(int tableRow)
+{
+    vec3 d0 = ownNormalWS(ivec2(1, tableRow));
+    vec3 d1 = ownNormalWS(ivec2(2, tableRow));
+    bool o = d0.x > 0.5;
+    bool r = d0.y > 0.5;
+    float d = d0.z;
+    check(1, number(isClearedDepth(tableView(o, r), d)), d1.x, 0.0002, 1e-06);
+    check(2, linearDepthFromDevice(tableView(o, r), d), d1.y, 0.0002, 1e-06);
+}
+
+void checkDeviceDepth(int tableRow)
+{
+    vec3 d0 = ownNormalWS(ivec2(1, tableRow));
+    vec3 d1 = ownNormalWS(ivec2(2, tableRow));
+    bool o = d0.x > 0.5;
+    bool r = d0.y > 0.5;
+    float z = d0.z;
+    check(101, deviceDepthFromLinear(tableView(o, r), z), d1.x, 1e-05, 1e-06);
+}
+
+void checkFromScreen(int tableRow)
+{
+    vec3 d0 = ownNormalWS(ivec2(1, tableRow));
+    vec3 d1 = ownNormalWS(ivec2(2, tableRow));
+    vec3 d2 = ownNormalWS(ivec2(3, tableRow));
+    vec3 d3 = ownNormalWS(ivec2(4, tableRow));
+    bool o = d0.x > 0.5;
+    vec2 ss = vec2(d0.y, d0.z);
+    float z = d1.x;
+    vec3 vs = positionVSFromSS(tableView(o, false), ss, z);
+    vec3 ws = positionWSFromSS(tableView(o, false), ss, z);
+    check(201, positionNDCFromSS(tableView(o, false), ss).x, d1.y, 1e-05, 4e-06);
+    check(202, positionNDCFromSS(tableView(o, false), ss).y, d1.z, 1e-05, 4e-06);
+    check(203, vs.x, d2.x, 1e-05, 4e-06);
+    check(204, vs.y, d2.y, 1e-05, 4e-06);
+    check(205, vs.z, d2.z, 1e-05, 4e-06);
+    check(206, ws.x, d3.x, 1e-05, 4e-06);
+    check(207, ws.y, d3.y, 1e-05, 4e-06);
+    check(208, ws.z, d3.z, 1e-05, 4e-06);
+}
+
+void checkToScreen(int tableRow)
+{
+    vec3 d0 = ownNormalWS(ivec2(1, tableRow));
+    vec3 d1 = ownNormalWS(ivec2(2, tableRow));
+    vec3 d2 = ownNormalWS(ivec2(3, tableRow));
+    bool o = d0.x > 0.5;
+    vec3 p = vec3(d0.y, d0.z, d1.x);
+    ScreenPosition found = projectWSToSS(tableView(o, true), p);
+    check(301, found.positionSS.x, d1.y, 4e-06, 2e-05);
+    check(302, found.positionSS.y, d1.z, 4e-06, 2e-05);
+    check(303, found.linearDepth, d2.x, 4e-06, 2e-05);
+    check(304, number(found.inFront), d2.y, 4e-06, 2e-05);
+}
+
+void checkOverflow(int tableRow)
+{
+    vec3 d0 = ownNormalWS(ivec2(1, tableRow));
+    vec3 d1 = ownNormalWS(ivec2(2, tableRow));
+    vec3 d2 = ownNormalWS(ivec2(3, tableRow));
+    bool o = d0.x > 0.5;
+    vec3 p = vec3(d0.y, d0.z, d1.x);
+    ScreenPosition found = projectVSToSS(tableView(o, true), p);
+    check(401, found.positionSS.x, d1.y, 1e-05, 1e-06);
+    check(402, found.positionSS.y, d1.z, 1e-05, 1e-06);
+    check(403, found.linearDepth, d2.x, 1e-05, 1e-06);
+    check(404, number(found.inFront), d2.y, 1e-05, 1e-06);
+}
+
+void checkDirections(int tableRow)
+{
+    vec3 d0 = ownNormalWS(ivec2(1, tableRow));
+    vec3 d1 = ownNormalWS(ivec2(2, tableRow));
+    vec3 d2 = ownNormalWS(ivec2(3, tableRow));
+    vec3 d3 = ownNormalWS(ivec2(4, tableRow));
+    vec3 d4 = ownNormalWS(ivec2(5, tableRow));
+    vec3 d5 = ownNormalWS(ivec2(6, tableRow));
+    bool o = d0.x > 0.5;
+    vec3 p = vec3(d0.y, d0.z, d1.x);
+    vec3 d = vec3(d1.y, d1.z, d2.x);
+    vec3 toEye = viewDirectionWS(tableView(o, true), p);
+    check(501, directionVSFromWS(tableView(o, true), d).x, d2.y, 1e-05, 4e-06);
+    check(502, directionVSFromWS(tableView(o, true), d).y, d2.z, 1e-05, 4e-06);
+    check(503, directionVSFromWS(tableView(o, true), d).z, d3.x, 1e-05, 4e-06);
+    check(504, toEye.x, d3.y, 1e-05, 4e-06);
+    check(505, toEye.y, d3.z, 1e-05, 4e-06);
+    check(506, toEye.z, d4.x, 1e-05, 4e-06);
+    check(507, positionVSFromWS(tableView(o, true), p).x, d4.y, 1e-05, 4e-06);
+    check(508, positionVSFromWS(tableView(o, true), p).y, d4.z, 1e-05, 4e-06);
+    check(509, positionVSFromWS(tableView(o, true), p).z, d5.x, 1e-05, 4e-06);
+}
+
+void checkOnScreen(int tableRow)
+{
+    vec3 d0 = ownNormalWS(ivec2(1, tableRow));
+    vec3 d1 = ownNormalWS(ivec2(2, tableRow));
+    vec2 ss = vec2(d0.x, d0.y);
+    check(601, number(isOnScreen(tableView(false, true), ss)), d0.z, 1e-05, 1e-06);
+    check(602, screenScale(tableView(false, true)).x, d1.x, 1e-05, 1e-06);
+    check(603, screenScale(tableView(true, true)).y, d1.y, 1e-05, 1e-06);
+}
+
+void checkRayDirNDC(int tableRow)
+{
+    vec3 d0 = ownNormalWS(ivec2(1, tableRow));
+    vec3 d1 = ownNormalWS(ivec2(2, tableRow));
+    vec3 d2 = ownNormalWS(ivec2(3, tableRow));
+    vec3 d3 = ownNormalWS(ivec2(4, tableRow));
+    bool o = d0.x > 0.5;
+    vec3 p = vec3(d0.y, d0.z, d1.x);
+    vec3 d = vec3(d1.y, d1.z, d2.x);
+    vec3 found = computeRayDirNDC(tableView(o, true), p, d);
+    check(701, found.x, d2.y, 2e-05, 1e-05);
+    check(702, found.y, d2.z, 2e-05, 1e-05);
+    check(703, found.z, d3.x, 2e-05, 1e-05);
+}
+
+OwnHit traceOwn(OwnRay ray)
+{
+    int row = ray.pixel.y;
+    if (row >= 0 && row <= 55) checkDepths(row);
+    if (row >= 56 && row <= 80) checkDeviceDepth(row);
+    if (row >= 81 && row <= 90) checkFromScreen(row);
+    if (row >= 91 && row <= 122) checkToScreen(row);
+    if (row >= 123 && row <= 129) checkOverflow(row);
+    if (row >= 130 && row <= 143) checkDirections(row);
+    if (row >= 144 && row <= 159) checkOnScreen(row);
+    if (row >= 160 && row <= 209) checkRayDirNDC(row);
+    return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
+}
