@@ -25,7 +25,7 @@ float number(bool condition) { return condition ? 1.0 : 0.0; }
 #include "crossray/probe/cubemap_filter.glsl"
 
 int probeCubeSize(int cubemap) { return 4; }
-int probeCubeLevelCount(int cubemap) { return cubemap == 2 ? 0 : 3; }
+int probeCubeLevelCount(int cubemap) { return cubemap == 2 ? 0 : cubemap == 3 ? 4 : 3; }
 
 vec3 fetchProbeTexel(int cubemap, int face, ivec2 texel, int level)
 {
@@ -33,6 +33,7 @@ vec3 fetchProbeTexel(int cubemap, int face, ivec2 texel, int level)
     vec3 radiance = vec3(float(number % 13), float(number % 7) + 0.5, float(number % 5)) * 0.25;
     int kind = cubemap == 1 ? number % 6 : 0;
     radiance.x = kind == 1 ? -1.0 : kind == 2 ? uintBitsToFloat(0x7fc00000u) : kind == 3 ? 90000.0 : radiance.x;
+    radiance.y = kind == 2 ? -1.0 : kind == 4 ? uintBitsToFloat(0x7fc00000u) : kind == 5 ? 80000.0 : radiance.y;
     radiance.z = kind == 4 ? uintBitsToFloat(0x7f800000u) : kind == 5 ? 70000.0 : radiance.z;
     return radiance;
 }
@@ -54,6 +55,6 @@ void checkSample(int tableRow)
 OwnHit traceOwn(OwnRay ray)
 {
     int row = ray.pixel.y;
-    if (row >= 0 && row <= 214) checkSample(row);
+    if (row >= 0 && row <= 234) checkSample(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

@@ -101,10 +101,10 @@ void checkByView(int tableRow)
 OwnHit traceOwn(OwnRay ray)
 {
     int row = ray.pixel.y;
-    if (row >= 0 && row <= 124) checkScreenWeight(row);
-    if (row >= 125 && row <= 188) checkTiers(row);
-    if (row >= 189 && row <= 232) checkMarchEnd(row);
-    if (row >= 233 && row <= 244) checkByMotion(row);
-    if (row >= 245 && row <= 252) checkByView(row);
+    if (row >= 0 && row <= 126) checkScreenWeight(row);
+    if (row >= 127 && row <= 190) checkTiers(row);
+    if (row >= 191 && row <= 234) checkMarchEnd(row);
+    if (row >= 235 && row <= 246) checkByMotion(row);
+    if (row >= 247 && row <= 254) checkByView(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

@@ -124,10 +124,10 @@ OwnHit traceOwn(OwnRay ray)
     if (row >= 0 && row <= 1) checkChoose(row);
     if (row >= 2 && row <= 21) checkSaturate(row);
     if (row >= 22 && row <= 46) checkIsFinite(row);
-    if (row >= 47 && row <= 73) checkDirection(row);
-    if (row >= 74 && row <= 83) checkMagnitudes(row);
-    if (row >= 84 && row <= 99) checkSafeDivide(row);
-    if (row >= 100 && row <= 110) checkAwayFromZero(row);
-    if (row >= 111 && row <= 111) checkConstants(row);
+    if (row >= 47 && row <= 75) checkDirection(row);
+    if (row >= 76 && row <= 85) checkMagnitudes(row);
+    if (row >= 86 && row <= 101) checkSafeDivide(row);
+    if (row >= 102 && row <= 112) checkAwayFromZero(row);
+    if (row >= 113 && row <= 113) checkConstants(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

@@ -179,7 +179,7 @@ def sub(a, b): return [x - y for x, y in zip(a, b)]
 def mul(a, s): return [x * s for x in a]
 def dot(a, b): return sum(x * y for x, y in zip(a, b))
 def length(a): return math.sqrt(dot(a, a))
-kLimit = single(1e37)
+kLimit, kShortest, kLongest = single(1e37), single(1e-30), single(1e30)
 
 
 def isNumber(*values): return all(abs(x) < kLimit for x in flat(values))
@@ -187,7 +187,7 @@ def isNumber(*values): return all(abs(x) < kLimit for x in flat(values))
 
 def unit(v, fallback=(0.0, 0.0, 0.0)):
     size = sum(abs(x) for x in v)
-    if not 1e-30 < size < 1e30:
+    if not kShortest < size < kLongest:
         return list(fallback)
     scaled = [x / size for x in v]
     return mul(scaled, 1 / length(scaled))

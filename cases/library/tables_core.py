@@ -1,6 +1,6 @@
 """Tables of core/, refract/, hierarchy/, debug/ and shared/; see tables.py."""
 import math
-from tables import Function, add, clamp01, dot, flat, isNumber, kInf, kLimit, kNaN, length, mul, smooth, sub, unit, write
+from tables import Function, add, clamp01, dot, flat, isNumber, kInf, kLimit, kLongest, kNaN, kShortest, length, mul, smooth, sub, unit, write
 
 # ---------------------------------------------------------------------------------------------------- core/math.glsl
 
@@ -32,9 +32,7 @@ def mathTables():
                             [1e25, 2e25, -1e25], [4e29, 4e29, 1e29], [4e29, 4e29, 4e29], [-4e29, 4e29, 4e29], [2e30, 0, 0], [0, kNaN, 0],
                             [kInf, 0, 0], [0, 0, -kInf], [1e-30, 0, 0], [1e30, 0, 0], [2e-27, 0, 0], [0, 1.5e-30, 0], [0, 0, 9e29]]
 
-    def hasDirection(v): return 1e-30 < sum(abs(x) for x in v) < 1e30
-    # The border itself is a float, as the function has it.
-    directions = [v for v in directions if sum(abs(x) for x in v) not in (1e-30, 1e30)]
+    def hasDirection(v): return kShortest < sum(abs(x) for x in v) < kLongest
     write("math", "The helpers of core/math answer what they say, for numbers of all sizes, NaN and infinities.", [
         Function("Choose", "c:b x:2 y:3", ["choose(c, x.x, x.y)", "float(choose(c, int(x.x), int(x.y)))", "choose(c, x, y.xy).x",
                  "choose(c, x, y.xy).y", "choose(c, y, y.yzx).x", "choose(c, y, y.yzx).y", "choose(c, y, y.yzx).z",
@@ -172,6 +170,9 @@ def viewTables():
         Function("DeviceDepth", "o:b r:b z:1", ["deviceDepthFromLinear(tableView(o, r), z)"],
                  [[o, r, z] for o, r in kinds for z in ([0.5, 1, 2, 8, 64] if not o else [0.5, 1, 2, 8, 64, -3])] + [[0, 0, -1], [0, 1, 0], [0, 1, -8]],
                  lambda o, r, z: [deviceOf(z if z > 0 or o else kNear, o, r)]),
+        Function("NearestDepth", "z:1", ["deviceDepthFromLinear(tableView(false, false), z) / 1e30"], [[1e-32], [1e-36], [1e-31]], lambda z: [-32 / 63.5]),
+        Function("NoAxis", "p:3", ["d.x", "d.y", "d.z"], [[kEye], [[kNaN, 2, 3]]], lambda p: [0, 0, 1],
+                 "View v = tableView(false, true);\nv.worldFromView[2] = vec4(0.0);\nvec3 d = viewDirectionWS(v, p);"),
         Function("FromScreen", "o:b ss:2 z:1", ["positionNDCFromSS(tableView(o, false), ss).x", "positionNDCFromSS(tableView(o, false), ss).y",
                  "vs.x", "vs.y", "vs.z", "ws.x", "ws.y", "ws.z"],
                  [[o, ss, z] for o in (0, 1) for ss, z in [([0, 0], 1), ([64, 48], 2), ([10, 40], 4), ([50, 6], 0.75), ([32, 24], 8)]], placeOf,
@@ -345,7 +346,7 @@ def refractTables():
 def screenRamp(x, d, form):
     if not 0 <= x <= 1:
         return 0
-    width = d / 2 if form == 2 else d
+    width = max(d / 2 if form == 2 else d, 1e-30)
     ramp = clamp01(min(x, 1 - x) / width) if d > 0 else 1
     return ramp if form == 0 else smooth(ramp)
 
@@ -381,7 +382,7 @@ def hierarchyTables():
     write("hierarchy", "Fading at the border, sharing between tiers, the end of a march and the place in the previous frame follow their definitions.", [
         Function("ScreenWeight", "uv:2 d:1 form:i", ["computeScreenWeight(uv, d, form)"],
                  [[x, 0.5, d, f] for f in (0, 1, 2) for d in (0.1, 0.25) for x in coordinates] + [[0.5, x, 0.2, f] for f in (0, 1, 2) for x in coordinates]
-                 + [[0.5, 0.5, 0, 0], [0, 1, 0, 1], [1, 0, -0.5, 2], [0.3, 0.7, kNaN, 0], [0.04, 0.06, 0.125, 1], [0.04, 0.06, 0.125, 2], [0.4, 0.3, 1, 0], [1.2, 0.5, 0, 0]],
+                 + [[0.5, 0.5, 0, 0], [0, 1, 0, 1], [1, 0, -0.5, 2], [0.3, 0.7, kNaN, 0], [0.04, 0.06, 0.125, 1], [0.04, 0.06, 0.125, 2], [0.4, 0.3, 1, 0], [1.2, 0.5, 0, 0], [5e-29, 0.5, 1e-28, 0], [0.5, 2e-31, 4e-31, 0]],
                  lambda uv, d, form: [screenRamp(uv[0], d, form) * screenRamp(uv[1], d, form)], relative=1e-5, absolute=1e-6),
         Function("Tiers", "h:1 w:1", ["addTier(h, w).hierarchyWeight", "addTier(h, w).weight", "addSky(h).hierarchyWeight", "addSky(h).weight"],
                  [[h, w] for h in weights for w in weights], lambda h, w: [addTier(h, w), addTier(h, 1)], relative=0, absolute=1e-7),

@@ -6,10 +6,10 @@ from tables_project import chooseSlope, cubePlace, fold, normalGradient
 
 # ------------------------------------------------------------------------------------------ probe/cubemap_filter.glsl
 
-# Cubemap 0: 4 texels a side and 3 levels; 1: the same texels, of which some are no radiance; 2: no level at all.
+# Cubemap 0: 4 texels a side and 3 levels; 1: the same texels, of which some are no radiance; 2: no level at all; 3: one level more.
 kTexels = """
 int probeCubeSize(int cubemap) { return 4; }
-int probeCubeLevelCount(int cubemap) { return cubemap == 2 ? 0 : 3; }
+int probeCubeLevelCount(int cubemap) { return cubemap == 2 ? 0 : cubemap == 3 ? 4 : 3; }
 
 vec3 fetchProbeTexel(int cubemap, int face, ivec2 texel, int level)
 {
@@ -17,6 +17,7 @@ vec3 fetchProbeTexel(int cubemap, int face, ivec2 texel, int level)
     vec3 radiance = vec3(float(number % 13), float(number % 7) + 0.5, float(number % 5)) * 0.25;
     int kind = cubemap == 1 ? number % 6 : 0;
     radiance.x = kind == 1 ? -1.0 : kind == 2 ? uintBitsToFloat(0x7fc00000u) : kind == 3 ? 90000.0 : radiance.x;
+    radiance.y = kind == 2 ? -1.0 : kind == 4 ? uintBitsToFloat(0x7fc00000u) : kind == 5 ? 80000.0 : radiance.y;
     radiance.z = kind == 4 ? uintBitsToFloat(0x7f800000u) : kind == 5 ? 70000.0 : radiance.z;
     return radiance;
 }
@@ -31,10 +32,12 @@ def texel(cubemap, face, x, y, level):
         found[0] = 0.0
     if kind == 3:
         found[0] = 65504.0
+    if kind in (2, 4):
+        found[1] = 0.0
     if kind == 4:
         found[2] = 0.0
     if kind == 5:
-        found[2] = 65504.0
+        found[1] = found[2] = 65504.0
     return found
 
 
@@ -60,7 +63,7 @@ def bilinear(cubemap, face, u, v, level):
 
 
 def sampleCube(cubemap, d, level):
-    last = 0 if cubemap == 2 else 2
+    last = 0 if cubemap == 2 else 3 if cubemap == 3 else 2
     level = min(level if level > 0 else 0, last)
     low = int(level)
     share = level - low
@@ -74,6 +77,7 @@ def cubemapFilterTables():
     edges = [[1, 0.95, 0.1], [1, 0.1, 0.95], [-1, -0.9, 0.3], [0.2, 1, 0.93], [-0.97, 1, 0.1], [0.9, -1, 0.2], [0.1, 0.94, 1], [0.92, -0.2, 1], [-0.9, 0.15, -1], [0.1, -0.93, -1], [0.2, -1, -0.9], [-1, 0.1, -0.96]]
     corners = [[s * 1.0, t * 0.93, r * 0.9] for s in (-1, 1) for t in (-1, 1) for r in (-1, 1)] + [[0.9, 1, 0.95], [-0.9, -1, 0.92], [0.93, -0.91, 1], [-0.95, 0.9, -1]]
     rows = [[0, d, level] for d in inside + edges + corners for level in (0, 1, 0.25, 1.5)] + [[0, d, level] for d in inside[:3] + corners[:2] for level in (2, 3, 1.75, -1, kNaN, kInf)]
+    rows += [[3, d, level] for d in inside[:3] + corners[:2] for level in (2, 2.5, 3, 4)]
     rows += [[c, d, level] for c in (1, 2) for d in inside + edges[:4] for level in (0, 0.5, 2)] + [[0, d, 0.5] for d in ([0, 0, 0], [0, 0, 5], [-3, 0, 0], [0.5, 1, 0], [0, -0.5, 1])]
     write("cubemap_filter", "A cubemap is read linearly within faces, across their edges, at corners and between levels.", [
         Function("Sample", "c:i d:3 level:1", ["r.x", "r.y", "r.z"], rows, sampleCube, "vec3 r = sampleProbeCubemap(c, d, level);", relative=4e-6, absolute=4e-6),

@@ -167,9 +167,12 @@ def parallaxTables():
         for face, s in ((low, -1), (high, 1)):
             on, out, across = [0.25, 0.5, 0.75], [0.1, 0.2, -0.1], [1, 1, 1]
             on[k], out[k], across[k] = face[k], s, 0
-            off, far = list(on), list(on)
-            off[k], far[k] = on[k] + s, on[k] + 4e-5 * s
+            off, far, near = list(on), list(on), list(on)
+            off[k], far[k], near[k] = on[k] + s, on[k] + 4e-4 * s, on[k] + 2e-5 * s
+            grazing = [1, -1, 0.5]
+            grazing[k] = 0.05 * s
             boxes += [[q, v, low, high, [0.5, 0.25, 1, 1]] for q in (on, off, far) for v in (out, mul(out, -1), across)]
+            boxes.append([near, grazing, low, high, [0.5, 0.25, 1, 1]])
     form = [[f] + row for f in (0, 1) for row in boxes]
     broken = [[f, [0.5, 0.5, 0.5], [1, 2, 3], [-3, kNaN, -2], high, [0, 0, 0, 1]] for f in (0, 1)]
     shapes = [[a, b] for a in range(-1, 6) for b in range(-1, 6)]

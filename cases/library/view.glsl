@@ -60,6 +60,26 @@ void checkDeviceDepth(int tableRow)
     check(101, deviceDepthFromLinear(tableView(o, r), z), d1.x, 1e-05, 1e-06);
 }
 
+void checkNearestDepth(int tableRow)
+{
+    vec3 d0 = ownNormalWS(ivec2(1, tableRow));
+    float z = d0.x;
+    check(201, deviceDepthFromLinear(tableView(false, false), z) / 1e30, d0.y, 1e-05, 1e-06);
+}
+
+void checkNoAxis(int tableRow)
+{
+    vec3 d0 = ownNormalWS(ivec2(1, tableRow));
+    vec3 d1 = ownNormalWS(ivec2(2, tableRow));
+    vec3 p = vec3(d0.x, d0.y, d0.z);
+    View v = tableView(false, true);
+    v.worldFromView[2] = vec4(0.0);
+    vec3 d = viewDirectionWS(v, p);
+    check(301, d.x, d1.x, 1e-05, 1e-06);
+    check(302, d.y, d1.y, 1e-05, 1e-06);
+    check(303, d.z, d1.z, 1e-05, 1e-06);
+}
+
 void checkFromScreen(int tableRow)
 {
     vec3 d0 = ownNormalWS(ivec2(1, tableRow));
@@ -71,14 +91,14 @@ void checkFromScreen(int tableRow)
     float z = d1.x;
     vec3 vs = positionVSFromSS(tableView(o, false), ss, z);
     vec3 ws = positionWSFromSS(tableView(o, false), ss, z);
-    check(201, positionNDCFromSS(tableView(o, false), ss).x, d1.y, 1e-05, 4e-06);
-    check(202, positionNDCFromSS(tableView(o, false), ss).y, d1.z, 1e-05, 4e-06);
-    check(203, vs.x, d2.x, 1e-05, 4e-06);
-    check(204, vs.y, d2.y, 1e-05, 4e-06);
-    check(205, vs.z, d2.z, 1e-05, 4e-06);
-    check(206, ws.x, d3.x, 1e-05, 4e-06);
-    check(207, ws.y, d3.y, 1e-05, 4e-06);
-    check(208, ws.z, d3.z, 1e-05, 4e-06);
+    check(401, positionNDCFromSS(tableView(o, false), ss).x, d1.y, 1e-05, 4e-06);
+    check(402, positionNDCFromSS(tableView(o, false), ss).y, d1.z, 1e-05, 4e-06);
+    check(403, vs.x, d2.x, 1e-05, 4e-06);
+    check(404, vs.y, d2.y, 1e-05, 4e-06);
+    check(405, vs.z, d2.z, 1e-05, 4e-06);
+    check(406, ws.x, d3.x, 1e-05, 4e-06);
+    check(407, ws.y, d3.y, 1e-05, 4e-06);
+    check(408, ws.z, d3.z, 1e-05, 4e-06);
 }
 
 void checkToScreen(int tableRow)
@@ -89,10 +109,10 @@ void checkToScreen(int tableRow)
     bool o = d0.x > 0.5;
     vec3 p = vec3(d0.y, d0.z, d1.x);
     ScreenPosition found = projectWSToSS(tableView(o, true), p);
-    check(301, found.positionSS.x, d1.y, 4e-06, 2e-05);
-    check(302, found.positionSS.y, d1.z, 4e-06, 2e-05);
-    check(303, found.linearDepth, d2.x, 4e-06, 2e-05);
-    check(304, number(found.inFront), d2.y, 4e-06, 2e-05);
+    check(501, found.positionSS.x, d1.y, 4e-06, 2e-05);
+    check(502, found.positionSS.y, d1.z, 4e-06, 2e-05);
+    check(503, found.linearDepth, d2.x, 4e-06, 2e-05);
+    check(504, number(found.inFront), d2.y, 4e-06, 2e-05);
 }
 
 void checkOverflow(int tableRow)
@@ -103,10 +123,10 @@ void checkOverflow(int tableRow)
     bool o = d0.x > 0.5;
     vec3 p = vec3(d0.y, d0.z, d1.x);
     ScreenPosition found = projectVSToSS(tableView(o, true), p);
-    check(401, found.positionSS.x, d1.y, 1e-05, 1e-06);
-    check(402, found.positionSS.y, d1.z, 1e-05, 1e-06);
-    check(403, found.linearDepth, d2.x, 1e-05, 1e-06);
-    check(404, number(found.inFront), d2.y, 1e-05, 1e-06);
+    check(601, found.positionSS.x, d1.y, 1e-05, 1e-06);
+    check(602, found.positionSS.y, d1.z, 1e-05, 1e-06);
+    check(603, found.linearDepth, d2.x, 1e-05, 1e-06);
+    check(604, number(found.inFront), d2.y, 1e-05, 1e-06);
 }
 
 void checkDirections(int tableRow)
@@ -121,15 +141,15 @@ void checkDirections(int tableRow)
     vec3 p = vec3(d0.y, d0.z, d1.x);
     vec3 d = vec3(d1.y, d1.z, d2.x);
     vec3 toEye = viewDirectionWS(tableView(o, true), p);
-    check(501, directionVSFromWS(tableView(o, true), d).x, d2.y, 1e-05, 4e-06);
-    check(502, directionVSFromWS(tableView(o, true), d).y, d2.z, 1e-05, 4e-06);
-    check(503, directionVSFromWS(tableView(o, true), d).z, d3.x, 1e-05, 4e-06);
-    check(504, toEye.x, d3.y, 1e-05, 4e-06);
-    check(505, toEye.y, d3.z, 1e-05, 4e-06);
-    check(506, toEye.z, d4.x, 1e-05, 4e-06);
-    check(507, positionVSFromWS(tableView(o, true), p).x, d4.y, 1e-05, 4e-06);
-    check(508, positionVSFromWS(tableView(o, true), p).y, d4.z, 1e-05, 4e-06);
-    check(509, positionVSFromWS(tableView(o, true), p).z, d5.x, 1e-05, 4e-06);
+    check(701, directionVSFromWS(tableView(o, true), d).x, d2.y, 1e-05, 4e-06);
+    check(702, directionVSFromWS(tableView(o, true), d).y, d2.z, 1e-05, 4e-06);
+    check(703, directionVSFromWS(tableView(o, true), d).z, d3.x, 1e-05, 4e-06);
+    check(704, toEye.x, d3.y, 1e-05, 4e-06);
+    check(705, toEye.y, d3.z, 1e-05, 4e-06);
+    check(706, toEye.z, d4.x, 1e-05, 4e-06);
+    check(707, positionVSFromWS(tableView(o, true), p).x, d4.y, 1e-05, 4e-06);
+    check(708, positionVSFromWS(tableView(o, true), p).y, d4.z, 1e-05, 4e-06);
+    check(709, positionVSFromWS(tableView(o, true), p).z, d5.x, 1e-05, 4e-06);
 }
 
 void checkOnScreen(int tableRow)
@@ -137,9 +157,9 @@ void checkOnScreen(int tableRow)
     vec3 d0 = ownNormalWS(ivec2(1, tableRow));
     vec3 d1 = ownNormalWS(ivec2(2, tableRow));
     vec2 ss = vec2(d0.x, d0.y);
-    check(601, number(isOnScreen(tableView(false, true), ss)), d0.z, 1e-05, 1e-06);
-    check(602, screenScale(tableView(false, true)).x, d1.x, 1e-05, 1e-06);
-    check(603, screenScale(tableView(true, true)).y, d1.y, 1e-05, 1e-06);
+    check(801, number(isOnScreen(tableView(false, true), ss)), d0.z, 1e-05, 1e-06);
+    check(802, screenScale(tableView(false, true)).x, d1.x, 1e-05, 1e-06);
+    check(803, screenScale(tableView(true, true)).y, d1.y, 1e-05, 1e-06);
 }
 
 void checkRayDirNDC(int tableRow)
@@ -152,9 +172,9 @@ void checkRayDirNDC(int tableRow)
     vec3 p = vec3(d0.y, d0.z, d1.x);
     vec3 d = vec3(d1.y, d1.z, d2.x);
     vec3 found = computeRayDirNDC(tableView(o, true), p, d);
-    check(701, found.x, d2.y, 2e-05, 1e-05);
-    check(702, found.y, d2.z, 2e-05, 1e-05);
-    check(703, found.z, d3.x, 2e-05, 1e-05);
+    check(901, found.x, d2.y, 2e-05, 1e-05);
+    check(902, found.y, d2.z, 2e-05, 1e-05);
+    check(903, found.z, d3.x, 2e-05, 1e-05);
 }
 
 OwnHit traceOwn(OwnRay ray)
@@ -162,11 +182,13 @@ OwnHit traceOwn(OwnRay ray)
     int row = ray.pixel.y;
     if (row >= 0 && row <= 55) checkDepths(row);
     if (row >= 56 && row <= 80) checkDeviceDepth(row);
-    if (row >= 81 && row <= 90) checkFromScreen(row);
-    if (row >= 91 && row <= 122) checkToScreen(row);
-    if (row >= 123 && row <= 129) checkOverflow(row);
-    if (row >= 130 && row <= 143) checkDirections(row);
-    if (row >= 144 && row <= 159) checkOnScreen(row);
-    if (row >= 160 && row <= 209) checkRayDirNDC(row);
+    if (row >= 81 && row <= 83) checkNearestDepth(row);
+    if (row >= 84 && row <= 85) checkNoAxis(row);
+    if (row >= 86 && row <= 95) checkFromScreen(row);
+    if (row >= 96 && row <= 127) checkToScreen(row);
+    if (row >= 128 && row <= 134) checkOverflow(row);
+    if (row >= 135 && row <= 148) checkDirections(row);
+    if (row >= 149 && row <= 164) checkOnScreen(row);
+    if (row >= 165 && row <= 214) checkRayDirNDC(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }
