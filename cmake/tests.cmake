@@ -126,6 +126,16 @@ add_test(NAME consumer.theDebianPackageHoldsAToolThatRuns
                  -D VERSION=${PROJECT_VERSION} -P ${CMAKE_SOURCE_DIR}/tests/consumer/check_deb.cmake)
 set_tests_properties(consumer.theDebianPackageHoldsAToolThatRuns PROPERTIES TIMEOUT 300)
 
+# A sample of the bugs that the verb mutate plants in what cases/library asks: a minute or two.
+if(TARGET crossray)
+  add_test(NAME mutation.theTablesCatchASampleOfPlantedBugs
+           COMMAND crossray --shaders ${CMAKE_SOURCE_DIR}/shaders --cases ${CMAKE_SOURCE_DIR}/cases mutate ${CMAKE_SOURCE_DIR}/cases/library
+                   --shader crossray/core --shader crossray/refract --shader crossray/hierarchy --shader crossray/debug --shader crossray/shared
+                   --shader crossray/probe --shader crossray/project/proxy.glsl --shader crossray/project/screen_ray.glsl
+                   --shader crossray/project/linear.glsl --shader crossray/project/depth_patch.glsl --sample 40 --seed 5 --ask 3 -j 2 --min-score 85)
+  set_tests_properties(mutation.theTablesCatchASampleOfPlantedBugs PROPERTIES TIMEOUT 600)
+endif()
+
 # The files of docs/scale, as their engines would run them.
 if(TARGET crossray)
   add_test(NAME scale.theFilesForEnginesMergeToTheUnshardedRun

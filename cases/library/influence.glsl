@@ -100,6 +100,18 @@ void checkStep(int tableRow)
     check(104, r.weight, d14.x, 1e-05, 0.003);
 }
 
+void checkFaceFade(int tableRow)
+{
+    vec3 d0 = ownNormalWS(ivec2(1, tableRow));
+    vec3 d1 = ownNormalWS(ivec2(2, tableRow));
+    vec3 d2 = ownNormalWS(ivec2(3, tableRow));
+    vec3 d3 = ownNormalWS(ivec2(4, tableRow));
+    vec3 d = vec3(d0.x, d0.y, d0.z);
+    vec3 p = vec3(d1.x, d1.y, d1.z);
+    vec3 n = vec3(d2.x, d2.y, d2.z);
+    check(201, computeFaceFade(d, p, n), d3.x, 1e-05, 1e-06);
+}
+
 void checkColor(int tableRow)
 {
     vec3 d0 = ownNormalWS(ivec2(1, tableRow));
@@ -108,16 +120,17 @@ void checkColor(int tableRow)
     vec3 c = vec3(d0.x, d0.y, d0.z);
     float m = d1.x;
     vec3 r = multiplyProbeColor(c, m);
-    check(201, r.x, d1.y, 1e-06, 0);
-    check(202, r.y, d1.z, 1e-06, 0);
-    check(203, r.z, d2.x, 1e-06, 0);
+    check(301, r.x, d1.y, 1e-06, 0);
+    check(302, r.y, d1.z, 1e-06, 0);
+    check(303, r.z, d2.x, 1e-06, 0);
 }
 
 OwnHit traceOwn(OwnRay ray)
 {
     int row = ray.pixel.y;
-    if (row >= 0 && row <= 414) checkInfluence(row);
-    if (row >= 415 && row <= 474) checkStep(row);
-    if (row >= 475 && row <= 488) checkColor(row);
+    if (row >= 0 && row <= 433) checkInfluence(row);
+    if (row >= 434 && row <= 493) checkStep(row);
+    if (row >= 494 && row <= 498) checkFaceFade(row);
+    if (row >= 499 && row <= 515) checkColor(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

@@ -163,6 +163,22 @@ void checkLookUp(int tableRow)
     check(504, float(f.status), d3.z, 1e-05, 4e-06);
 }
 
+void checkOnBorder(int tableRow)
+{
+    vec3 d0 = ownNormalWS(ivec2(1, tableRow));
+    vec3 d1 = ownNormalWS(ivec2(2, tableRow));
+    vec3 d2 = ownNormalWS(ivec2(3, tableRow));
+    vec3 p = vec3(d0.x, d0.y, d0.z);
+    View v = tableView(false, false);
+    v.viewFromWorld = mat4(1.0);
+    v.worldFromView = mat4(1.0);
+    PlanarLookup f = lookUpPlanar(v, mat4(vec4(1.0, 0.0, 0.0, 0.0), vec4(0.0, 1.0, 0.0, 0.0), vec4(0.0, 0.0, -1.0, -1.0), vec4(0.0, 0.0, -0.5, 0.0)), p, vec3(0.0, 0.0, -1.0));
+    check(601, f.positionUV.x, d1.x, 1e-05, 1e-06);
+    check(602, f.positionUV.y, d1.y, 1e-05, 1e-06);
+    check(603, f.weight, d1.z, 1e-05, 1e-06);
+    check(604, float(f.status), d2.x, 1e-05, 1e-06);
+}
+
 void checkAlignment(int tableRow)
 {
     vec3 d0 = ownNormalWS(ivec2(1, tableRow));
@@ -170,7 +186,7 @@ void checkAlignment(int tableRow)
     vec3 d2 = ownNormalWS(ivec2(3, tableRow));
     vec3 n = vec3(d0.x, d0.y, d0.z);
     vec3 m = vec3(d1.x, d1.y, d1.z);
-    check(601, computeMirrorAlignment(MirrorPlane(vec3(0.0), n), m), d2.x, 1e-05, 1e-06);
+    check(701, computeMirrorAlignment(MirrorPlane(vec3(0.0), n), m), d2.x, 1e-05, 1e-06);
 }
 
 OwnHit traceOwn(OwnRay ray)
@@ -182,6 +198,7 @@ OwnHit traceOwn(OwnRay ray)
     if (row >= 98 && row <= 141) checkOblique(row);
     if (row >= 142 && row <= 261) checkFromOblique(row);
     if (row >= 262 && row <= 325) checkLookUp(row);
-    if (row >= 326 && row <= 337) checkAlignment(row);
+    if (row >= 326 && row <= 365) checkOnBorder(row);
+    if (row >= 366 && row <= 377) checkAlignment(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

@@ -246,8 +246,8 @@ OwnHit traceOwn(OwnRay ray)
     if (row >= 582 && row <= 611) checkSizes(row);
     if (row >= 612 && row <= 629) checkCell(row);
     if (row >= 630 && row <= 646) checkDifference(row);
-    if (row >= 647 && row <= 694) checkAgree(row);
-    if (row >= 695 && row <= 730) checkLinearStride(row);
-    if (row >= 731 && row <= 762) checkLinearEnd(row);
+    if (row >= 647 && row <= 726) checkAgree(row);
+    if (row >= 727 && row <= 762) checkLinearStride(row);
+    if (row >= 763 && row <= 794) checkLinearEnd(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

@@ -205,7 +205,9 @@ def smooth(x):
 if __name__ == "__main__":
     import tables_core
     import tables_hooks
+    import tables_linear
+    import tables_patch
     import tables_probe
     import tables_project
-    for part in (tables_core, tables_probe, tables_project, tables_hooks):
+    for part in (tables_core, tables_probe, tables_project, tables_hooks, tables_linear, tables_patch):
         part.make()

@@ -250,9 +250,17 @@ def influenceTables():
                     p[k] = s * x
                     (a if s > 0 else b)[k] = 1.0
                     rows.append([shape, p, p, [1, 2, 3], none, 0, [2, 2, 2], none, none, a, b, one, one, none, 1])
+    for k in range(3):  # a distance below 0 or NaN counts as 0
+        for s in (-1, 1):
+            for x, length in ((2.5, -1), (1.5, kNaN), (2.5, kNaN)):
+                p, a, b = [0, 0, 0], [0, 0, 0], [0, 0, 0]
+                p[k] = s * x
+                (a if s > 0 else b)[k] = length
+                rows.append([2, p, p, [1, 2, 3], none, 0, [2, 2, 2], none, none, a, b, one, one, none, 1])
+    rows.append([2, [1e-4, 0, 0], [1, 0, 0], [1, 2, 3], none, 0, [2, 2, 2], none, none, [1.9999, 0, 0], [3, 0, 0], one, one, none, 1])
     rows += [[s, [0, 0, 0], [0, 1, 0], [1, 2, 3], none, 0, [2, 2, 2], one, one, none, none, one, one, [0, 1, 0], 1] for s in (0, 1, 4)]
     colors = [[[0.5, 1, 2], 3], [[-1, kNaN, kInf], 2], [[kInf, -2, kNaN], 2], [[kNaN, kInf, -3], 2], [[1, 2, 3], 0], [[1, 2, 3], -1], [[1, 2, 3], kNaN], [[70000, 3, 65504], 1],
-              [[1000, 65504, 0.001], 100], [[4, 70000, 80000], 0.5], [[9e36, 1, 2e37], 1], [[0.25, 0.5, 1e38], kInf], [[0, 0.125, 4], 7], [[0.3, 0.6, 0], 80000]]
+              [[1000, 65504, 0.001], 100], [[4, 70000, 80000], 0.5], [[9e36, 1, 2e37], 1], [[0.25, 0.5, 1e38], kInf], [[0, 0.125, 4], 7], [[0.3, 0.6, 0], 80000], [[0.001, 65504, 1000], 100], [[65504, 0.001, 0.002], 100], [[0.001, 0.002, 65504], 100]]
 
     def color(c, m):
         fit = lambda x: min(x, kFar) if x > 0 and isNumber(x) else 0.0
@@ -262,6 +270,8 @@ def influenceTables():
                  "ProbeWeight r = computeProbeWeight(ProbeInfluence(s, c, tableTurn(t), h, bp, bn, np, nn, fp, fn, q, w), p, n, d);", absolute=1e-5, relative=1e-5),
         Function("Step", "s:i p:3 n:3 d:3 c:3 t:b h:3 bp:3 bn:3 np:3 nn:3 fp:3 fn:3 q:3 w:1", ["r.volume", "r.blendNormal", "r.faceFade", "r.weight"], steps, influence,
                  "ProbeWeight r = computeProbeWeight(ProbeInfluence(s, c, tableTurn(t), h, bp, bn, np, nn, fp, fn, q, w), p, n, d);", absolute=3e-3),
+        Function("FaceFade", "d:3 p:3 n:3", ["computeFaceFade(d, p, n)"], [[d, [0.25, 0.5, 0.75], [0.3, 0.6, 0.9]] for d in ([3, 1, 0.5], [-0.1, -0.2, 0.05], [0, 9, 0], [1e-20, 2e-20, 0], [0, 0, 0])],
+                 lambda d, p, n: [clamp01(sum(clamp01((4 * v - 1) * a) + clamp01((-4 * v - 1) * b) for v, a, b in zip(unit(d), p, n)))]),
         Function("Color", "c:3 m:1", ["r.x", "r.y", "r.z"], colors, color, "vec3 r = multiplyProbeColor(c, m);", absolute=0, relative=1e-6),
     ], ["crossray/probe/influence.glsl"], kTurn)
 

@@ -170,7 +170,7 @@ def pyramidTables():
                  [[o, f, s, [0, 4], [4, 9]] for o in (0, 1) for f, s in ((2, 3), (3, 2), (1, 1), (1e30, 2), (2, 1e30), (4e29, 4e29), (6e29, 1), (1, kInf))] + [[0, 2, 3, [4, 4], [4, 4]]],
                  difference, "DepthDifference d = computeDepthDifference(o, f, s, CellSpan(int(a.x), int(a.y)), CellSpan(int(b.x), int(b.y)));"),
         Function("Agree", "a:1 b:1 t:1", ["number(agree(a, b, t))"],
-                 [[a, b, t] for a, b in ((1, 1.5), (1, 2), (1, 2.002), (1, 2.01), (2, 1), (-1, -2), (-1, 1), (0.1, -0.1), (0, 0.1), (1, 3), (3, 1), (-3, -1)) for t in (0.0, 0.125, 0.25, 0.5)], agree),
+                 [[a, b, t] for a, b in ((1, 1.5), (1, 2), (1, 2.002), (1, 2.01), (2, 1), (-1, -2), (-1, 1), (0.1, -0.1), (0, 0.1), (1, 3), (3, 1), (-3, -1), (0.25, 0.45), (0.45, 0.25), (-0.3, -0.5), (0.5, -0.25)) for t in (0.0, 0.01, 0.125, 0.25, 0.5)], agree),
         Function("LinearStride", "s:1 n:i end:1 p:1", ["computeLinearStride(LinearSettings(s, n, 1, 0.0, 0), ScreenRay(vec2(0.0), vec2(1.0), p, 0.0, 0.0, 0, 0), end)"],
                  [[s, n, 0.75, 0.125] for s in (4, 0, -1, kNaN, 1e-5, 1e6, 0.5, 0.001, 1) for n in (0, -2, 1, 5)], linear),
         Function("LinearEnd", "a:2 d:2", ["computeLinearEnd(tableView(false, true), ScreenRay(a, d, 0.1, 0.0, 0.0, 0, 0))"],
@@ -355,6 +355,13 @@ float kept = number(found.clipFromView[0].x == clip[0].x && found.clipFromView[1
         Function("FromOblique", "o:b r:b row:4 ndc:2 d:1", ["linearDepthFromOblique(tableView(o, r), withDepthRow(mat4(1.0), row), ndc, d)"], depthRows, lambda *row: [fromOblique(*row)], relative=4e-5),
         Function("LookUp", "o:b r:b p:3 d:3", ["f.positionUV.x", "f.positionUV.y", "f.weight", "float(f.status)"], looks, lookUp,
                  "View v = tableView(o, r);\nPlanarLookup f = lookUpPlanar(v, v.clipFromView, p, d);", absolute=4e-6),
+        Function("OnBorder", "p:3", ["f.positionUV.x", "f.positionUV.y", "f.weight", "float(f.status)"],
+                 [[[x, y, -z]] for z in (0.5, 1, 2, 0.25) for x, y in ((0, 0), (1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (0.5, 0.25), (-0.5, 0.5), (2, 0), (0, -2))],
+                 lambda p: [0, 0, 0, 6] if p[2] > -0.5 else [0, 0, 0, 5] if max(abs(p[0]), abs(p[1])) > -p[2] else [0.5 - 0.5 * p[0] / p[2], 0.5 + 0.5 * p[1] / p[2], 1, 0],
+                 """View v = tableView(false, false);
+v.viewFromWorld = mat4(1.0);
+v.worldFromView = mat4(1.0);
+PlanarLookup f = lookUpPlanar(v, mat4(vec4(1.0, 0.0, 0.0, 0.0), vec4(0.0, 1.0, 0.0, 0.0), vec4(0.0, 0.0, -1.0, -1.0), vec4(0.0, 0.0, -0.5, 0.0)), p, vec3(0.0, 0.0, -1.0));"""),
         Function("Alignment", "n:3 m:3", ["computeMirrorAlignment(MirrorPlane(vec3(0.0), n), m)"], [[n, m] for n in ([1, 2, 2], [0, 0, 0], [0, -3, 1]) for m in ([0, 1, 0], [2, -1, 2], [0, 0, 0], [1, 1, 5])],
                  lambda n, m: [dot(unit(n), unit(m))]),
     ], ["crossray/probe/planar.glsl"], kViews)
