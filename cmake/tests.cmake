@@ -132,7 +132,8 @@ if(TARGET crossray)
            COMMAND crossray --shaders ${CMAKE_SOURCE_DIR}/shaders --cases ${CMAKE_SOURCE_DIR}/cases mutate ${CMAKE_SOURCE_DIR}/cases/library
                    --shader crossray/core --shader crossray/refract --shader crossray/hierarchy --shader crossray/debug --shader crossray/shared
                    --shader crossray/probe --shader crossray/project/proxy.glsl --shader crossray/project/screen_ray.glsl
-                   --shader crossray/project/linear.glsl --shader crossray/project/depth_patch.glsl --sample 40 --seed 5 --ask 3 -j 2 --min-score 85)
+                   --shader crossray/project/linear.glsl --shader crossray/project/depth_patch.glsl --shader crossray/project/hiz.glsl
+                   --shader crossray/project/patch_tracer.glsl --shader crossray/project/surface_pyramid.glsl --sample 40 --seed 5 --ask 3 -j 2 --min-score 85)
   set_tests_properties(mutation.theTablesCatchASampleOfPlantedBugs PROPERTIES TIMEOUT 600)
 endif()
 

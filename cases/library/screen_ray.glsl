@@ -144,6 +144,6 @@ OwnHit traceOwn(OwnRay ray)
     if (row >= 38 && row <= 53) checkAffine(row);
     if (row >= 54 && row <= 57) checkAt(row);
     if (row >= 58 && row <= 87) checkBorder(row);
-    if (row >= 88 && row <= 243) checkPixelAt(row);
+    if (row >= 88 && row <= 259) checkPixelAt(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

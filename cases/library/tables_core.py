@@ -103,7 +103,7 @@ def deviceOf(z, ortho, reversedDepth):
 
 
 def linearOf(device, ortho, reversedDepth):
-    if device != device:
+    if isCleared(device, reversedDepth):
         return kFar
     standard = 1 - device if reversedDepth else device
     if ortho:
@@ -116,7 +116,7 @@ def linearOf(device, ortho, reversedDepth):
 
 def isCleared(device, reversedDepth):
     fromCleared = device if reversedDepth else 1 - device
-    return not fromCleared > 0
+    return not 0 < fromCleared < 1 + 2 ** -10  # nearer than the near plane by more than a rounding: nothing was drawn
 
 
 def toScreen(p, ortho):
@@ -146,7 +146,7 @@ def rayDirNDC(ortho, p, d):
 
 def viewTables():
     kinds = [[o, r] for o in (0, 1) for r in (0, 1)]
-    devices = [0.0, 1.0, 0.25, 0.5, 0.75, 0.99, 0.015625, -0.25, 1.25, -2.0, 3.0, kNaN, 0.001, 0.9999]
+    devices = [0.0, 1.0, 0.25, 0.5, 0.75, 0.99, 0.015625, -0.25, 1.25, -2.0, 3.0, kNaN, 0.001, 0.9999, 1.0005, -0.0005, 1.002, -0.002, kInf, -kInf]
     points = [[0, 0, 0], [1, 2, 3], [-3, 1, 2], [4, 1, -5], [-2, 3, -1], [5, -6, 7], [-6, 4, 0.5], [1e20, 1e20, -1e30], [-7, 5, 1], [3, 1, 5]]
     directions = [[1, 0, 0], [0, 1, 0], [0, 0, 1], [-2 / 3, 1 / 3, -2 / 3], [0.6, -0.8, 0], [0, 0.6, 0.8], [2 / 3, -1 / 3, 2 / 3]]
 

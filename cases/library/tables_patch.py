@@ -48,7 +48,11 @@ def slopeOf(o, depths, place, count, pixels, level, bend, favour):
         return agree(a, b, bend)
     farBefore, before, after, farAfter = step(-2), step(-1), step(0), step(1)
     a, b = before or 0.0, after or 0.0
-    smooth = before is not None and after is not None and same(a, b)
+    between = before is not None and after is not None
+    difference = abs(b - a)
+    if between and (difference < 1e-7 or decide(difference, bend / 16, 1e-3)):
+        return (a + b) / 2
+    smooth = between and same(a, b)
     if before is None:
         takeBefore = False
     elif after is None:
@@ -59,10 +63,6 @@ def slopeOf(o, depths, place, count, pixels, level, bend, favour):
     sure = smooth or decide(abs(slope), 4 * bend, 1e-4) or favour != 0
     if smooth:
         slope = (a + b) / 2
-    difference = abs(b - a)
-    between = before is not None and after is not None
-    if between and (difference == 0 or decide(difference, bend / 16, 1e-3)):
-        return slope
     bendBefore = abs(a - farBefore) if before is not None and farBefore is not None else 1e30
     bendAfter = abs(farAfter - b) if after is not None and farAfter is not None else 1e30
     if between and decide(min(bendBefore, bendAfter), difference / 4, 1e-3):

@@ -62,7 +62,7 @@ def screenRayTables():
 
     def depths(o, z):
         return [-z if o else 1 / max(z, 1e-30), -z if o else 1 / max(z, 1e-30)]
-    walks = [[a, d, int(math.floor(a)), s, i] for a, d in ((2.5, 7.25), (7.75, -5.5), (3.0, 4.0), (6.0, -4.0), (1.25, 0.5), (5.5, 0.0), (8.5, -9.0), (40.5, 20.0), (8.25, -0.125))
+    walks = [[a, d, int(math.floor(a)), s, i] for a, d in ((2.5, 7.25), (7.75, -5.5), (3.0, 4.0), (6.0, -4.0), (1.25, 0.5), (5.5, 0.0), (8.5, -9.0), (40.5, 20.0), (8.25, -0.125), (2.75, 1.0))
              for s in (0.0, 0.1, 0.25, 0.3, 0.5, 0.75, 0.9, 1.0) for i in (0, 1)]
     walks += [[a, d, f, s, i] for a, d, f in ((2.5, 7.25, 4), (7.75, -5.5, 5)) for s in (0.0, 0.2, 0.6, 1.0) for i in (0, 1)]
     walks = [row for row in walks if row[1] == 0 or abs((row[0] + row[1] * row[3]) % 1 - 0.5) < 0.499 or row[3] in (0.0, 0.25, 0.5, 1.0)]

@@ -180,15 +180,15 @@ void checkRayDirNDC(int tableRow)
 OwnHit traceOwn(OwnRay ray)
 {
     int row = ray.pixel.y;
-    if (row >= 0 && row <= 55) checkDepths(row);
-    if (row >= 56 && row <= 80) checkDeviceDepth(row);
-    if (row >= 81 && row <= 83) checkNearestDepth(row);
-    if (row >= 84 && row <= 85) checkNoAxis(row);
-    if (row >= 86 && row <= 95) checkFromScreen(row);
-    if (row >= 96 && row <= 127) checkToScreen(row);
-    if (row >= 128 && row <= 134) checkOverflow(row);
-    if (row >= 135 && row <= 148) checkDirections(row);
-    if (row >= 149 && row <= 164) checkOnScreen(row);
-    if (row >= 165 && row <= 214) checkRayDirNDC(row);
+    if (row >= 0 && row <= 79) checkDepths(row);
+    if (row >= 80 && row <= 104) checkDeviceDepth(row);
+    if (row >= 105 && row <= 107) checkNearestDepth(row);
+    if (row >= 108 && row <= 109) checkNoAxis(row);
+    if (row >= 110 && row <= 119) checkFromScreen(row);
+    if (row >= 120 && row <= 151) checkToScreen(row);
+    if (row >= 152 && row <= 158) checkOverflow(row);
+    if (row >= 159 && row <= 172) checkDirections(row);
+    if (row >= 173 && row <= 188) checkOnScreen(row);
+    if (row >= 189 && row <= 238) checkRayDirNDC(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }
