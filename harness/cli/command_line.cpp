@@ -229,7 +229,8 @@ void addReport(CLI::App& app, CommandLine& line)
         ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     report
-        .add_option("--bench", line.report.benches, "JSON of bench, bench tracers, sweep or mutate, as charts; may be repeated")
+        .add_option("--bench", line.report.benches,
+                    "JSON of bench, bench tracers, sweep or mutate, as charts; may be repeated")
         ->type_name("FILE")
         ->expected(1)
         ->allow_extra_args(false)
@@ -396,6 +397,9 @@ int runCommandLine(int argc, const char* const* argv)
     } catch (const Error& error) {
         fmt::print(stderr, "{}{}\n", error.position().file.empty() ? "crossray: " : "", error.what());
         return static_cast<int>(error.exitCode());
+    } catch (const std::bad_alloc&) {
+        fmt::print(stderr, "crossray: out of memory; fewer cores (-j) or smaller images take less\n");
+        return static_cast<int>(ExitCode::kEnvironment);
     } catch (const std::exception& error) {
         fmt::print(stderr, "crossray: {}\n", error.what());
         return static_cast<int>(ExitCode::kEnvironment);

@@ -186,6 +186,7 @@ std::string formatFailure(const CaseResult& testCase, const BackendResult& resul
         text += i == 0 ? head : "     ";
         text += fmt::format("  {}   {}\n", expectation.output, formatHeadline(expectation));
         text += fmt::format("      {}\n", formatNumbers(expectation));
+        if (!expectation.note.empty()) text += fmt::format("      {}\n", expectation.note);
         if (i == 0) {
             text += fmt::format("      {}   {}\n", style.paint(Ink::kDim, expectation.position.format()),
                                 formatCommand(testCase, result, &expectation, caseFolder));

@@ -1,6 +1,7 @@
 #include "harness/run/execute.h"
 
 #include "harness/run/case_flight.h"
+#include "harness/run/golden.h"
 #include "harness/run/schedule.h"
 #include "harness/run/verdict.h"
 
@@ -391,6 +392,7 @@ class Execution {
             run_.firstVerdictMs = millisecondsSince(options_.processStart);
         }
         if (tallyOf(result.verdict) == Tally::kFailed) ++failures_;
+        noteGoldens(cases_[caseIndex], result);
         auto& list = run_.cases[caseIndex].backends;
         const auto place = std::find_if(list.begin(), list.end(), [&](const BackendResult& other) {
             return orderOf(other.backend) > orderOf(result.backend);
@@ -400,6 +402,21 @@ class Execution {
         if (options_.maxFailures > 0 && failures_ >= options_.maxFailures && !run_.stoppedEarly) {
             run_.stoppedEarly = true;
             schedule_.stop();
+        }
+    }
+
+    // A golden holds for the device that it was recorded on; of another one a reader is told.
+    void noteGoldens(const Case& testCase, BackendResult& result)
+    {
+        for (ExpectationResult& expectation : result.expectations) {
+            const auto* golden = std::get_if<GoldenSource>(&testCase.expectations.at(expectation.index).source);
+            if (golden == nullptr || !expectation.judged || !expectation.note.empty()) continue;
+            const std::lock_guard lock(backendsMutex_);
+            const auto record = run_.backends.find(result.backend);
+            if (record == run_.backends.end()) continue;
+            Fingerprint here = record->second.fingerprint;
+            here.backend = result.backend;
+            expectation.note = describeGoldenOrigin(golden->file, here);
         }
     }
 

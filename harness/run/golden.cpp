@@ -1,5 +1,6 @@
 #include "harness/run/golden.h"
 
+#include "harness/base/text.h"
 #include "harness/run/plane_files.h"
 #include "harness/scene/exr.h"
 
@@ -125,6 +126,37 @@ std::vector<fs::path> acceptGoldens(const Case& testCase, const RunResult& run, 
         written.push_back(sidecar);
     }
     return written;
+}
+
+std::string describeGoldenOrigin(const fs::path& golden, const Fingerprint& here)
+{
+    fs::path sidecar = golden;
+    sidecar += ".json";
+    const std::string unknown = fmt::format("where {} was recorded is not known: ", golden.filename().string());
+    const std::optional<std::string> text = readText(sidecar);
+    if (!text) return unknown + fmt::format("it has no {}", sidecar.filename().string());
+    try {
+        const nlohmann::json json = nlohmann::json::parse(*text);
+        const nlohmann::json& print = json.at("fingerprint");
+        const std::string backend = json.at("backend").get<std::string>();
+        std::string differences;
+        const auto compare = [&](const char* key, const std::string& value) {
+            const std::string recorded = print.at(key).get<std::string>();
+            if (recorded == value) return;
+            differences +=
+                fmt::format("{}{} \"{}\", here \"{}\"", differences.empty() ? "" : "; ", key, recorded, value);
+        };
+        if (backend != here.backend) differences = fmt::format("backend {}, here {}", backend, here.backend);
+        compare("api", here.api);
+        compare("device", here.device);
+        compare("driver", here.driver);
+        compare("llvm", here.llvm);
+        compare("cpu", here.cpu);
+        if (differences.empty()) return {};
+        return fmt::format("{} was recorded under another fingerprint: {}", golden.filename().string(), differences);
+    } catch (const nlohmann::json::exception&) {
+        return unknown + fmt::format("{} does not say it", sidecar.filename().string());
+    }
 }
 
 } // namespace crossray

@@ -1,6 +1,7 @@
 // Golden expectations: recorded only when a person accepts what a run computed.
 #pragma once
 
+#include "harness/backend/device.h"
 #include "harness/case/case.h"
 #include "harness/run/results.h"
 
@@ -27,5 +28,8 @@ std::vector<GoldenFailure> listGoldenFailures(const RunResult& run);
 // the files written. Throws InputError when the run kept no planes of the case or the case has no golden expectation.
 std::vector<std::filesystem::path> acceptGoldens(const Case& testCase, const RunResult& run,
                                                  const std::filesystem::path& runFolder, const std::string& backend);
+
+// In words, where a golden was recorded, if that was not under this fingerprint: by its sidecar. Empty where it was.
+std::string describeGoldenOrigin(const std::filesystem::path& golden, const Fingerprint& here);
 
 } // namespace crossray

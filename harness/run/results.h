@@ -44,7 +44,7 @@ struct ExpectationResult {
     std::optional<double> undecidable;      // share that it excuses; none: nothing
     std::optional<double> undecidableAbove; // output ulps for an input ulp from which on it may
     bool judged = false;
-    std::string note; // why it was not judged
+    std::string note; // why it was not judged; of a golden: under which other fingerprint it was recorded
     bool missingGolden = false;
     Comparison comparison; // when judged
 };

@@ -9,6 +9,7 @@
 #include <csignal>
 #include <list>
 #include <map>
+#include <new>
 #include <poll.h>
 #include <thread>
 #include <unistd.h>
@@ -71,6 +72,8 @@ bool answer(int replyFd, Device& device, ProgramStore& store, std::span<const st
         return writeFrame(replyFd, FrameKind::kEnvironmentError, error.what());
     } catch (const Error& error) {
         return writeFrame(replyFd, FrameKind::kShaderError, error.what());
+    } catch (const std::bad_alloc&) {
+        return writeFrame(replyFd, FrameKind::kEnvironmentError, std::string("the worker is out of memory"));
     } catch (const std::exception& error) {
         return writeFrame(replyFd, FrameKind::kEnvironmentError, std::string("unexpected failure: ") + error.what());
     }

@@ -61,6 +61,7 @@ function expectationLine(shown, details, update) {
   return h('div', { class: 'expectation' },
     h('p', {}, verdictMark(verdict[0], verdict[1]), h('span', { class: 'why' }, verdict[2])),
     h('p', { class: 'dim' }, select || expectation.source, h('span', {}, ` · tolerance ${expectation.tolerance} · `), h('code', {}, place)),
+    expectation.judged && expectation.note && h('p', { class: 'dim' }, expectation.note),
     comparison && statistics(comparison),
     comparison?.confusion && confusionTable(comparison.confusion));
 }

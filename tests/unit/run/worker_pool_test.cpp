@@ -162,6 +162,10 @@ TEST(WorkerPool, errorsOfAJobAreAnswers)
     EXPECT_EQ(lost.outcome, JobOutcome::kEnvironmentError);
     EXPECT_EQ(lost.text, "the device is lost");
     EXPECT_NE(processOf(pool), process);
+    const JobReport starved = pool.run("test", 0, jobOf("no memory"), 10s);
+    EXPECT_EQ(starved.outcome, JobOutcome::kEnvironmentError);
+    EXPECT_EQ(starved.text, "the worker is out of memory");
+    EXPECT_EQ(pool.run("test", 0, jobOf("fine"), 10s).outcome, JobOutcome::kDone);
 }
 
 TEST(WorkerPool, devicesThatDoNotOpen)

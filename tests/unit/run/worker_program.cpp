@@ -105,6 +105,12 @@ class TestDevice : public Device {
         if (what == "shader") throw ShaderError("a.comp:1:2: error: no such thing");
         if (what == "lost") throw EnvironmentError("the device is lost");
         if (what == "input") throw InputError("the job is no job");
+        if (what == "no memory") {
+            const rlimit little{size_t{1} << 28, size_t{1} << 40}; // of addresses: a quarter of what is asked for
+            ::setrlimit(RLIMIT_AS, &little);
+            std::vector<char> much(size_t{1} << 30, 1);
+            return echo(job);
+        }
         if (what == "memory") {
             std::vector<char> much(200 << 20, 1);
             JobResult result;
