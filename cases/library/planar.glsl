@@ -194,11 +194,11 @@ OwnHit traceOwn(OwnRay ray)
     int row = ray.pixel.y;
     if (row >= 0 && row <= 20) checkReflection(row);
     if (row >= 21 && row <= 49) checkView(row);
-    if (row >= 50 && row <= 97) checkSlope(row);
-    if (row >= 98 && row <= 141) checkOblique(row);
-    if (row >= 142 && row <= 261) checkFromOblique(row);
-    if (row >= 262 && row <= 325) checkLookUp(row);
-    if (row >= 326 && row <= 365) checkOnBorder(row);
-    if (row >= 366 && row <= 377) checkAlignment(row);
+    if (row >= 50 && row <= 103) checkSlope(row);
+    if (row >= 104 && row <= 147) checkOblique(row);
+    if (row >= 148 && row <= 267) checkFromOblique(row);
+    if (row >= 268 && row <= 331) checkLookUp(row);
+    if (row >= 332 && row <= 371) checkOnBorder(row);
+    if (row >= 372 && row <= 383) checkAlignment(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

@@ -350,7 +350,7 @@ float kept = number(found.clipFromView[0].x == clip[0].x && found.clipFromView[1
                  "View v = tableView(o, true);\nv.slope = vec2(sx, sy);\nMirroredView m = makeMirroredView(v, MirrorPlane(p, n));\nvec3 s = (m.view.viewFromWorld * vec4(q, 1.0)).xyz;\n"
                  "vec3 b = (m.view.worldFromView * vec4(s, 1.0)).xyz;", absolute=1e-5),
         Function("Slope", "f:1 a:1", ["computeCaptureSlope(f, a).x", "computeCaptureSlope(f, a).y"],
-                 [[f, a] for f in (1, 2, 0.25, 0, -1, 3.2, 4, kNaN) for a in (1, 1.5, 0, -2, kNaN, kInf)], slope, relative=1e-4),
+                 [[f, a] for f in (1, 2, 0.25, 0, -1, 3.2, 4, math.pi, kNaN) for a in (1, 1.5, 0, -2, kNaN, kInf)], slope, relative=1e-4),
         Function("Oblique", "o:b r:b far:1 p:3 n:3 x:1 y:1", ["float(found.status)", "near", "end", "kept"], rowsOblique, lambda *row: oblique(*row) + [1], glsl, absolute=2e-5),
         Function("FromOblique", "o:b r:b row:4 ndc:2 d:1", ["linearDepthFromOblique(tableView(o, r), withDepthRow(mat4(1.0), row), ndc, d)"], depthRows, lambda *row: [fromOblique(*row)], relative=4e-5),
         Function("LookUp", "o:b r:b p:3 d:3", ["f.positionUV.x", "f.positionUV.y", "f.weight", "float(f.status)"], looks, lookUp,
@@ -413,7 +413,7 @@ def urpDominance(a, b, profile):
 
 def urpTables():
     boxes = [([-1, -2, -3], [3, 2, 1]), ([0, 0, 0], [1, 1, 1]), ([2, 0, 0], [1, 1, 1]), ([0, 2, 0], [1, 1, 1]), ([0, 0, 2], [1, 1, 1]), ([kInf, 0, 0], [1, 1, 1]), ([0, 0, 0], [1, kInf, 1]), ([0, 0, 0], [200, 10, 20]),
-             ([0, 0, 0], [148, 148, 148]), ([0, 0, 0], [147, 147, 147]), ([-2, 0, 0], [300, 5, 1]), ([0, 0, 0], [1e16, 1e16, 1e16])]
+             ([0, 0, 0], [148, 148, 148]), ([0, 0, 0], [147, 147, 147]), ([-2, 0, 0], [300, 5, 1]), ([0, 0, 0], [252, 44, 8]), ([0, 0, 0], [1e16, 1e16, 1e16])]
     inside = [[1, 0, -1], [2.75, 0, -1], [-0.75, 0.5, -1], [1, 1.5, -1], [1, -1.75, -1], [1, 0, 0.5], [1, 0, -2.5], [3, 0, -1], [4, 0, -1], [1, -3, -1], [1, 0, 2], [kInf, 0, 0]]
     ranks = [(2, 1, 3, 0), (2, 1, 3, 1), (2, 1, 4, 2), (1, 1, 3, 3), (2, 2, 3, 4), (3, 0, 9, 5), (2.00001, 1, 3, 6), (150, 1, 0, 7), (160, 1, 0, 8), (1, 2, 1, 9)]
     probe = "UrpProbe(vec3(0.0), vec3({0}.x), 0.5, {0}.y, {0}.z, int({0}.w))"

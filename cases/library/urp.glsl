@@ -145,13 +145,13 @@ void checkPairShares(int tableRow)
 OwnHit traceOwn(OwnRay ray)
 {
     int row = ray.pixel.y;
-    if (row >= 0 && row <= 83) checkWeight(row);
-    if (row >= 84 && row <= 119) checkSize(row);
-    if (row >= 120 && row <= 419) checkOrder(row);
-    if (row >= 420 && row <= 449) checkPair(row);
-    if (row >= 450 && row <= 566) checkShares(row);
-    if (row >= 567 && row <= 596) checkSkyWeight(row);
-    if (row >= 597 && row <= 668) checkForwardPlus(row);
-    if (row >= 669 && row <= 788) checkPairShares(row);
+    if (row >= 0 && row <= 84) checkWeight(row);
+    if (row >= 85 && row <= 123) checkSize(row);
+    if (row >= 124 && row <= 423) checkOrder(row);
+    if (row >= 424 && row <= 453) checkPair(row);
+    if (row >= 454 && row <= 570) checkShares(row);
+    if (row >= 571 && row <= 600) checkSkyWeight(row);
+    if (row >= 601 && row <= 672) checkForwardPlus(row);
+    if (row >= 673 && row <= 792) checkPairShares(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

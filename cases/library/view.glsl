@@ -80,6 +80,21 @@ void checkNoAxis(int tableRow)
     check(303, d.z, d1.z, 1e-05, 1e-06);
 }
 
+void checkNearEye(int tableRow)
+{
+    vec3 d0 = ownNormalWS(ivec2(1, tableRow));
+    vec3 d1 = ownNormalWS(ivec2(2, tableRow));
+    vec3 d2 = ownNormalWS(ivec2(3, tableRow));
+    float z = d0.x;
+    vec3 d = vec3(d0.y, d0.z, d1.x);
+    View v = tableView(false, true);
+    v.viewFromWorld = mat4(1.0);
+    vec3 found = computeRayDirNDC(v, vec3(z, z, -z), d);
+    check(401, found.x, d1.y, 1e-05, 1e-06);
+    check(402, found.y, d1.z, 1e-05, 1e-06);
+    check(403, found.z, d2.x, 1e-05, 1e-06);
+}
+
 void checkFromScreen(int tableRow)
 {
     vec3 d0 = ownNormalWS(ivec2(1, tableRow));
@@ -91,14 +106,14 @@ void checkFromScreen(int tableRow)
     float z = d1.x;
     vec3 vs = positionVSFromSS(tableView(o, false), ss, z);
     vec3 ws = positionWSFromSS(tableView(o, false), ss, z);
-    check(401, positionNDCFromSS(tableView(o, false), ss).x, d1.y, 1e-05, 4e-06);
-    check(402, positionNDCFromSS(tableView(o, false), ss).y, d1.z, 1e-05, 4e-06);
-    check(403, vs.x, d2.x, 1e-05, 4e-06);
-    check(404, vs.y, d2.y, 1e-05, 4e-06);
-    check(405, vs.z, d2.z, 1e-05, 4e-06);
-    check(406, ws.x, d3.x, 1e-05, 4e-06);
-    check(407, ws.y, d3.y, 1e-05, 4e-06);
-    check(408, ws.z, d3.z, 1e-05, 4e-06);
+    check(501, positionNDCFromSS(tableView(o, false), ss).x, d1.y, 1e-05, 4e-06);
+    check(502, positionNDCFromSS(tableView(o, false), ss).y, d1.z, 1e-05, 4e-06);
+    check(503, vs.x, d2.x, 1e-05, 4e-06);
+    check(504, vs.y, d2.y, 1e-05, 4e-06);
+    check(505, vs.z, d2.z, 1e-05, 4e-06);
+    check(506, ws.x, d3.x, 1e-05, 4e-06);
+    check(507, ws.y, d3.y, 1e-05, 4e-06);
+    check(508, ws.z, d3.z, 1e-05, 4e-06);
 }
 
 void checkToScreen(int tableRow)
@@ -109,10 +124,10 @@ void checkToScreen(int tableRow)
     bool o = d0.x > 0.5;
     vec3 p = vec3(d0.y, d0.z, d1.x);
     ScreenPosition found = projectWSToSS(tableView(o, true), p);
-    check(501, found.positionSS.x, d1.y, 4e-06, 2e-05);
-    check(502, found.positionSS.y, d1.z, 4e-06, 2e-05);
-    check(503, found.linearDepth, d2.x, 4e-06, 2e-05);
-    check(504, number(found.inFront), d2.y, 4e-06, 2e-05);
+    check(601, found.positionSS.x, d1.y, 4e-06, 2e-05);
+    check(602, found.positionSS.y, d1.z, 4e-06, 2e-05);
+    check(603, found.linearDepth, d2.x, 4e-06, 2e-05);
+    check(604, number(found.inFront), d2.y, 4e-06, 2e-05);
 }
 
 void checkOverflow(int tableRow)
@@ -123,10 +138,10 @@ void checkOverflow(int tableRow)
     bool o = d0.x > 0.5;
     vec3 p = vec3(d0.y, d0.z, d1.x);
     ScreenPosition found = projectVSToSS(tableView(o, true), p);
-    check(601, found.positionSS.x, d1.y, 1e-05, 1e-06);
-    check(602, found.positionSS.y, d1.z, 1e-05, 1e-06);
-    check(603, found.linearDepth, d2.x, 1e-05, 1e-06);
-    check(604, number(found.inFront), d2.y, 1e-05, 1e-06);
+    check(701, found.positionSS.x, d1.y, 1e-05, 1e-06);
+    check(702, found.positionSS.y, d1.z, 1e-05, 1e-06);
+    check(703, found.linearDepth, d2.x, 1e-05, 1e-06);
+    check(704, number(found.inFront), d2.y, 1e-05, 1e-06);
 }
 
 void checkDirections(int tableRow)
@@ -141,15 +156,15 @@ void checkDirections(int tableRow)
     vec3 p = vec3(d0.y, d0.z, d1.x);
     vec3 d = vec3(d1.y, d1.z, d2.x);
     vec3 toEye = viewDirectionWS(tableView(o, true), p);
-    check(701, directionVSFromWS(tableView(o, true), d).x, d2.y, 1e-05, 4e-06);
-    check(702, directionVSFromWS(tableView(o, true), d).y, d2.z, 1e-05, 4e-06);
-    check(703, directionVSFromWS(tableView(o, true), d).z, d3.x, 1e-05, 4e-06);
-    check(704, toEye.x, d3.y, 1e-05, 4e-06);
-    check(705, toEye.y, d3.z, 1e-05, 4e-06);
-    check(706, toEye.z, d4.x, 1e-05, 4e-06);
-    check(707, positionVSFromWS(tableView(o, true), p).x, d4.y, 1e-05, 4e-06);
-    check(708, positionVSFromWS(tableView(o, true), p).y, d4.z, 1e-05, 4e-06);
-    check(709, positionVSFromWS(tableView(o, true), p).z, d5.x, 1e-05, 4e-06);
+    check(801, directionVSFromWS(tableView(o, true), d).x, d2.y, 1e-05, 4e-06);
+    check(802, directionVSFromWS(tableView(o, true), d).y, d2.z, 1e-05, 4e-06);
+    check(803, directionVSFromWS(tableView(o, true), d).z, d3.x, 1e-05, 4e-06);
+    check(804, toEye.x, d3.y, 1e-05, 4e-06);
+    check(805, toEye.y, d3.z, 1e-05, 4e-06);
+    check(806, toEye.z, d4.x, 1e-05, 4e-06);
+    check(807, positionVSFromWS(tableView(o, true), p).x, d4.y, 1e-05, 4e-06);
+    check(808, positionVSFromWS(tableView(o, true), p).y, d4.z, 1e-05, 4e-06);
+    check(809, positionVSFromWS(tableView(o, true), p).z, d5.x, 1e-05, 4e-06);
 }
 
 void checkOnScreen(int tableRow)
@@ -157,9 +172,9 @@ void checkOnScreen(int tableRow)
     vec3 d0 = ownNormalWS(ivec2(1, tableRow));
     vec3 d1 = ownNormalWS(ivec2(2, tableRow));
     vec2 ss = vec2(d0.x, d0.y);
-    check(801, number(isOnScreen(tableView(false, true), ss)), d0.z, 1e-05, 1e-06);
-    check(802, screenScale(tableView(false, true)).x, d1.x, 1e-05, 1e-06);
-    check(803, screenScale(tableView(true, true)).y, d1.y, 1e-05, 1e-06);
+    check(901, number(isOnScreen(tableView(false, true), ss)), d0.z, 1e-05, 1e-06);
+    check(902, screenScale(tableView(false, true)).x, d1.x, 1e-05, 1e-06);
+    check(903, screenScale(tableView(true, true)).y, d1.y, 1e-05, 1e-06);
 }
 
 void checkRayDirNDC(int tableRow)
@@ -172,9 +187,9 @@ void checkRayDirNDC(int tableRow)
     vec3 p = vec3(d0.y, d0.z, d1.x);
     vec3 d = vec3(d1.y, d1.z, d2.x);
     vec3 found = computeRayDirNDC(tableView(o, true), p, d);
-    check(901, found.x, d2.y, 2e-05, 1e-05);
-    check(902, found.y, d2.z, 2e-05, 1e-05);
-    check(903, found.z, d3.x, 2e-05, 1e-05);
+    check(1001, found.x, d2.y, 2e-05, 1e-05);
+    check(1002, found.y, d2.z, 2e-05, 1e-05);
+    check(1003, found.z, d3.x, 2e-05, 1e-05);
 }
 
 OwnHit traceOwn(OwnRay ray)
@@ -184,11 +199,12 @@ OwnHit traceOwn(OwnRay ray)
     if (row >= 80 && row <= 104) checkDeviceDepth(row);
     if (row >= 105 && row <= 107) checkNearestDepth(row);
     if (row >= 108 && row <= 109) checkNoAxis(row);
-    if (row >= 110 && row <= 119) checkFromScreen(row);
-    if (row >= 120 && row <= 151) checkToScreen(row);
-    if (row >= 152 && row <= 158) checkOverflow(row);
-    if (row >= 159 && row <= 172) checkDirections(row);
-    if (row >= 173 && row <= 188) checkOnScreen(row);
-    if (row >= 189 && row <= 238) checkRayDirNDC(row);
+    if (row >= 110 && row <= 114) checkNearEye(row);
+    if (row >= 115 && row <= 124) checkFromScreen(row);
+    if (row >= 125 && row <= 156) checkToScreen(row);
+    if (row >= 157 && row <= 163) checkOverflow(row);
+    if (row >= 164 && row <= 177) checkDirections(row);
+    if (row >= 178 && row <= 193) checkOnScreen(row);
+    if (row >= 194 && row <= 243) checkRayDirNDC(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }
