@@ -155,9 +155,29 @@ void checkMarch(int tableRow)
     check(11, recordedCells, d7.x, 0.0004, 0.004);
 }
 
+void checkNoStart(int tableRow)
+{
+    vec3 d0 = ownNormalWS(ivec2(1, tableRow));
+    vec3 d1 = ownNormalWS(ivec2(2, tableRow));
+    vec3 d2 = ownNormalWS(ivec2(3, tableRow));
+    vec3 d3 = ownNormalWS(ivec2(4, tableRow));
+    vec3 d4 = ownNormalWS(ivec2(5, tableRow));
+    vec3 p = vec3(d0.x, d0.y, d0.z);
+    vec3 d = vec3(d1.x, d1.y, d1.z);
+    PatchTraceResult r = tracePatches(tableView(false, true), p, d, PatchTracerSettings(4, 100, 0.4, 0.0));
+    check(101, float(r.hitClass), d2.x, 2e-05, 0.0001);
+    check(102, float(r.reason), d2.y, 2e-05, 0.0001);
+    check(103, r.positionSS.x, d2.z, 2e-05, 0.0001);
+    check(104, r.positionSS.y, d3.x, 2e-05, 0.0001);
+    check(105, r.linearDepth, d3.y, 2e-05, 0.0001);
+    check(106, float(r.iterations), d3.z, 2e-05, 0.0001);
+    check(107, r.confidence, d4.x, 2e-05, 0.0001);
+}
+
 OwnHit traceOwn(OwnRay ray)
 {
     int row = ray.pixel.y;
     if (row >= 0 && row <= 799) checkMarch(row);
+    if (row >= 800 && row <= 813) checkNoStart(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

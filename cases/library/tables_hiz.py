@@ -3,7 +3,7 @@ import math
 import random
 from tables import Function, copyOf, dot, flat, single, sub, unit, write
 from tables_core import fromView, kEye, kSize, kSlope, kViews
-from tables_linear import Undecided, decide
+from tables_linear import Undecided, decide, noStart, noStarts
 from tables_patch import slopeOf, span
 from tables_project import screenRay
 
@@ -242,4 +242,6 @@ def make():
                  rows[:700], march,
                  "tableKind = k;\nView v = tableView(false, true);\nfloat z = fetchDepthPyramid(ivec2(x, y), 0).x * (1.0 + lift);\nvec3 p = positionWSFromSS(v, vec2(float(x) + 0.5, float(y) + 0.5), z);\n"
                  "vec3 w = (v.worldFromView * vec4(d, 0.0)).xyz;\nTraceResult r = traceHiz(v, p, w, HizSettings(low, high, most, bias));", relative=3e-4, absolute=4e-3),
+        Function("NoStart", "p:3 d:3", ["float(r.hitClass)", "float(r.reason)", "r.positionSS.x", "r.positionSS.y", "r.linearDepth", "float(r.iterations)", "float(r.maxUsedLevel)"], noStarts(),
+                 lambda p, d: noStart(p, d) + [0], "TraceResult r = traceHiz(tableView(false, true), p, d, HizSettings(1, 4, 100, 1.0));", relative=2e-5, absolute=1e-4),
     ], [], kViews + copyOf("crossray/project/depth_patch.glsl") + copyOf("crossray/project/hiz.glsl") + kHooks)

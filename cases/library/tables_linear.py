@@ -168,6 +168,24 @@ def march(o, kind, px, py, lift, d, stride, steps, most, bias, halvings):
     return [hitClass, result, sx + dx * where, sy + dy * where, back(a0 + da * where), iterations, kindOf, total, kinds]
 
 
+def noStart(p, d):
+    """What a march answers that cannot start: class, reason, position, depth, steps."""
+    sx, sy, *_, affine, _, _, status = flat(screenRay(False, p, d))
+    if status != 0:
+        return [0 if status == 9 else 2 if status == 7 else 3, status, 0, 0, 1, 0]
+    return [3, 2, sx, sy, 1 / affine, 0]
+
+
+def noStarts():
+    at = lambda x, y, z: fromView([x, y, -z])
+    away = sub(fromView([0.1, 0.2, -1]), kEye)
+    towards = sub(fromView([0.1, 0.2, 1]), kEye)
+    nan = float("nan")
+    rows = [[at(*p), d] for p in ((4, 0, 2), (-4, 0.3, 2), (0.1, 3, 2), (0.2, -3, 4)) for d in (away, towards)]
+    rows += [[at(0.1, 0.1, 2), [0, 0, 0]], [[nan, 0, 0], away], [at(0.1, 0.1, 2), [0, nan, 0]], [at(0.1, 0.1, 0.25), towards], [at(0, 0, -2), away], [at(0.1, 0.1, 80), away]]
+    return [row for row in rows if row is not None]
+
+
 def make():
     rows = []
     starts = {0: [(20, 40), (10, 30), (50, 44), (33, 36)], 1: [(10, 20), (30, 40), (58, 9)], 2: [(12, 20), (34, 20), (50, 40)], 3: [(12, 20), (40, 30), (29, 10), (1, 24)]}
@@ -196,4 +214,6 @@ def make():
                  rows, march,
                  "tableKind = k;\nView v = tableView(o, true);\nfloat z = fetchLinearDepth(ivec2(x, y)) * (1.0 + lift);\nvec3 p = positionWSFromSS(v, vec2(float(x) + 0.5, float(y) + 0.5), z);\n"
                  "vec3 w = (v.worldFromView * vec4(d, 0.0)).xyz;\nLinearResult r = traceLinear(v, p, w, LinearSettings(stride, n, most, bias, h));", relative=2e-4, absolute=2e-3),
+        Function("NoStart", "p:3 d:3", ["float(r.hitClass)", "float(r.reason)", "r.positionSS.x", "r.positionSS.y", "r.linearDepth", "float(r.iterations)"], noStarts(), noStart,
+                 "LinearResult r = traceLinear(tableView(false, true), p, d, LinearSettings(4.0, 0, 100, 1.0, 0));", relative=2e-5, absolute=1e-4),
     ], [], kViews + copyOf("crossray/project/linear.glsl") + kSurfaces)

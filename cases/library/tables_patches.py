@@ -3,7 +3,7 @@ import math
 import random
 from tables import Function, clamp01, copyOf, dot, flat, length, mul, single, sub, unit, write
 from tables_core import fromView, kEye, kSize, kSlope, kViews
-from tables_linear import Undecided, decide
+from tables_linear import Undecided, decide, noStart, noStarts
 from tables_patch import span
 from tables_project import screenRay
 
@@ -290,4 +290,7 @@ def make():
                  "tableKind = k;\nView v = tableView(false, true);\nvec4 s = fetchSurfaceCell(ivec2(x, y), 0);\nfloat z = (s.w < 0.0 ? 8.0 : 1.0 / s.x) * (1.0 + lift);\n"
                  "vec3 p = positionWSFromSS(v, vec2(float(x) + 0.5, float(y) + 0.5), z);\nvec3 w = (v.worldFromView * vec4(d, 0.0)).xyz;\n"
                  "PatchTraceResult r = tracePatches(v, p, w, PatchTracerSettings(high, most, caution, error));", relative=4e-4, absolute=4e-3),
+        Function("NoStart", "p:3 d:3", ["float(r.hitClass)", "float(r.reason)", "r.positionSS.x", "r.positionSS.y", "r.linearDepth", "float(r.iterations)", "r.confidence"], noStarts(),
+                 lambda p, d: (lambda a: a[:4] + [a[4] if a[1] == 2 else 0, 0, 0])(noStart(p, d)),
+                 "PatchTraceResult r = tracePatches(tableView(false, true), p, d, PatchTracerSettings(4, 100, 0.4, 0.0));", relative=2e-5, absolute=1e-4),
     ], [], kViews + copyOf("crossray/project/patch_tracer.glsl") + kHooks)
