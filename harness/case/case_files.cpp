@@ -1,4 +1,5 @@
-#include "harness/case/case.h"
+#include "harness/case/case_files.h"
+
 #include "harness/case/presets.h"
 
 #include <algorithm>
@@ -27,6 +28,14 @@ std::vector<fs::path> listFiles(const Case& testCase)
     std::vector<fs::path> files;
     addFile(testCase.file, files);
     addFile(findPresetsFile(testCase.file.parent_path()), files);
+    for (const fs::path& file : listNamedFiles(testCase))
+        addFile(file, files);
+    return files;
+}
+
+std::vector<fs::path> listNamedFiles(const Case& testCase)
+{
+    std::vector<fs::path> files;
     if (testCase.recorded) {
         addFile(testCase.recorded->file, files);
         addFile(testCase.recorded->cameraFile, files);

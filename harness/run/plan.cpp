@@ -1,6 +1,7 @@
 #include "harness/run/plan.h"
 
 #include "harness/expect/expect.h"
+#include "harness/run/content_hashes.h"
 #include "harness/run/run_plan.h"
 
 #include <fmt/format.h>
@@ -216,11 +217,11 @@ class Planner {
                                                             testCase.name, place->second->string()));
         }
         if (!passesFilters(testCase)) return;
-        selected_.emplace(testCase.name, file);
+        selected_.emplace(testCase.name, contents_.hashFilesOf(testCase));
         if (!isForeign(testCase)) result_.plan.cases.push_back(testCase);
     }
 
-    // Of another part: its name is all that this one needs, and of millions of cases all that it holds.
+    // Of another part: its name and hash are all that this one needs, and of millions of cases all that it holds.
     bool isForeign(const Case& testCase) const
     {
         return selection_.shard && !selection_.timings &&
@@ -242,7 +243,8 @@ class Planner {
     CaseFiles files_;
     std::set<fs::path> filesOfCases_;
     std::map<std::string, const fs::path*> fileOfName_;
-    SelectedNames selected_;
+    ContentHashes contents_;
+    std::map<std::string, Hash128> selected_; // and what their files say
     PlanResult result_;
 };
 

@@ -57,18 +57,6 @@ Hash128 hashProgram()
     return hashes.find("/proc/self/exe");
 }
 
-Hash128 ContentHashes::find(const fs::path& file)
-{
-    {
-        const std::lock_guard lock(mutex_);
-        if (const auto known = hashes_.find(file); known != hashes_.end()) return known->second;
-    }
-    const std::optional<std::string> text = readText(file);
-    const Hash128 hash = text ? hashBytes(std::string_view(*text)) : Hasher().addString("absent").finish();
-    const std::lock_guard lock(mutex_);
-    return hashes_.emplace(file, hash).first->second;
-}
-
 std::string encodeKept(const KeptResult& kept)
 {
     Json shaders = Json::object(), devices = Json::object();
@@ -116,9 +104,7 @@ Hash128 KeptResults::keyOf(const Case& testCase)
     hasher.addNumber(identity_.validation ? 1 : 0).addNumber(static_cast<uint64_t>(identity_.repeat));
     // The name tells sub-cases of one file apart; positions and the summary are in the file.
     hasher.addString(testCase.name).addString(testCase.file.generic_string());
-    for (const fs::path& file : listFiles(testCase))
-        hasher.addString(file.filename().string()).addHash(hashes_.find(file));
-    return hasher.finish();
+    return hasher.addHash(hashes_.hashFilesOf(testCase)).finish();
 }
 
 KeptResult KeptResults::make(const Case& testCase, const CaseResult& result, std::span<const fs::path> shaderFiles,

@@ -7,6 +7,7 @@
 #include "harness/base/hash.h"
 #include "harness/case/case.h"
 #include "harness/compile/cache.h"
+#include "harness/run/content_hashes.h"
 #include "harness/run/execute.h"
 #include "harness/run/results.h"
 
@@ -29,16 +30,6 @@ struct RunIdentity {
     int repeat = 1;
 };
 Hash128 hashProgram();
-
-// Hashes of files, each read once; what is not there has a hash of its own. Thread-safe.
-class ContentHashes {
-  public:
-    Hash128 find(const std::filesystem::path& file);
-
-  private:
-    std::mutex mutex_;
-    std::map<std::filesystem::path, Hash128> hashes_;
-};
 
 // One case's results with what they depend on.
 struct KeptResult {

@@ -1,8 +1,6 @@
 #include "harness/run/run_plan.h"
 
-#include "harness/base/hash.h"
 #include "harness/base/text.h"
-#include "harness/case/presets.h"
 #include "harness/compile/compile.h"
 #include "harness/run/environment.h"
 #include "harness/run/source_hash.h"
@@ -17,38 +15,14 @@ namespace crossray {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-// Reads each file once, however many sub-cases it has.
-class FileHashes {
-  public:
-    const Hash128& of(const fs::path& file)
-    {
-        const auto [place, isNew] = files_.try_emplace(file);
-        if (isNew) {
-            const fs::path folder = file.parent_path();
-            const auto [presets, isNewFolder] = folders_.try_emplace(folder);
-            if (isNewFolder) presets->second = hashBytes(readText(findPresetsFile(folder)).value_or(""));
-            place->second = Hasher().addString(readText(file).value_or("")).addHash(presets->second).finish();
-        }
-        return place->second;
-    }
-
-  private:
-    std::map<fs::path, Hash128> files_, folders_;
-};
-
-} // namespace
-
-RunPlan describeSelection(const SelectedNames& selected)
+RunPlan describeSelection(const std::map<std::string, Hash128>& filesOfNames)
 {
     RunPlan plan;
-    plan.cases = plan.ownCases = selected.size();
-    FileHashes files;
+    plan.cases = plan.ownCases = filesOfNames.size();
     Hasher names, contents;
-    for (const auto& [name, file] : selected) {
+    for (const auto& [name, files] : filesOfNames) {
         names.addString(name);
-        contents.addString(name).addHash(files.of(*file));
+        contents.addString(name).addHash(files);
     }
     plan.names = names.finish().hex();
     plan.contents = contents.finish().hex();

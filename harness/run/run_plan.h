@@ -2,7 +2,7 @@
 // one plan may differ in machines and times alone.
 #pragma once
 
-#include "harness/case/case.h"
+#include "harness/base/hash.h"
 #include "harness/run/execute.h"
 #include "harness/run/results.h"
 
@@ -14,10 +14,9 @@
 
 namespace crossray {
 
-// Of all selected cases, whatever part of them this run takes: their number, their names, and what their files and
-// presets say.
-using SelectedNames = std::map<std::string, const std::filesystem::path*>; // and the files that they stand in
-RunPlan describeSelection(const SelectedNames& selected);
+// Of all selected cases, whatever part of them this run takes: their number, their names, and what their files say
+// (ContentHashes::hashFilesOf).
+RunPlan describeSelection(const std::map<std::string, Hash128>& filesOfNames);
 
 // Hash over names, whatever their order.
 std::string hashNames(std::vector<std::string> names);
