@@ -26,12 +26,11 @@ RunJsonFrame formatRunJsonFrame(const RunResult& run);
 std::string indentCaseJson(std::string_view json);
 // One of its cases, on one line.
 std::string formatCaseJson(const CaseResult& testCase);
-// Throws InputError with `name` for text that is none.
-CaseResult parseCaseJson(std::string_view text, const std::string& name);
 // All of it but the cases, on one line.
 std::string formatHeadJson(const RunResult& run);
 // Throws InputError with `name` for text that is no run.json of this schema.
 RunResult parseRunJson(std::string_view text, const std::string& name);
+// The same of one case.
 CaseResult parseCaseJson(std::string_view text, const std::string& name);
 // A run.json, or the folder that holds one.
 RunResult readRun(const std::filesystem::path& path);
