@@ -28,14 +28,16 @@ std::string quote(const std::string& text)
     return "[======[" + text + "]======]";
 }
 
-std::string formatTest(const Case& testCase, const std::vector<std::string>& common)
+// The results go below the folder, from wherever CTest starts: another project may include it in its own tests.
+std::string formatTest(const Case& testCase, const std::vector<std::string>& common, const fs::path& folder)
 {
     std::string text = "add_test(" + quote(testCase.name);
     for (const std::string& word : common)
         text += " " + quote(word);
     return text + fmt::format(" {} {})\nset_tests_properties({} PROPERTIES LABELS {} TIMEOUT 600)\n",
-                              quote("--output=out/" + testCase.name), quote(formatArgument(testCase)),
-                              quote(testCase.name), quote(fmt::format("{}", fmt::join(testCase.tags, ";"))));
+                              quote("--output=" + (folder / "out" / testCase.name).string()),
+                              quote(formatArgument(testCase)), quote(testCase.name),
+                              quote(fmt::format("{}", fmt::join(testCase.tags, ";"))));
 }
 
 } // namespace
@@ -54,7 +56,7 @@ int writeCtestFolder(const GlobalOptions& global, const SelectionOptions& select
                                           "--progress=none"};
     std::string text = "# Made by crossray list --ctest. Each case is a test, its tags are labels.\n";
     for (const Case& testCase : selected.cases)
-        text += formatTest(testCase, common);
+        text += formatTest(testCase, common, fs::absolute(folder).lexically_normal());
     std::error_code failure;
     fs::create_directories(folder, failure);
     writeFileWhole(fs::path(folder) / "CTestTestfile.cmake", text);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
 #include <regex>
 
 namespace fs = std::filesystem;
@@ -158,6 +159,27 @@ TEST_F(ShardTest, enginesNameThePartOnRequestAlone)
     EXPECT_EQ(run(fmt::format("run {} --shard auto", kCpu)).exitCode, 2);
 }
 
+TEST_F(ShardTest, aFileThatACaseNamesIsPartOfThePlan)
+{
+    writeCases();
+    const char* const kMore = "backends = [\"cpu64\"]\n[projection]\nmodel = \"own\"\ntracer = \"mine.glsl\"";
+    writeCase("cases/own.toml", "own", kMore);
+    writeFile("cases/mine.glsl", "OwnHit traceOwn(OwnRay ray)\n{\n    return ownEnd(kHitReasonSky, vec2(0.0));\n}\n");
+    for (int index = 1; index <= 2; ++index)
+        run(fmt::format("run {} -o shards --shard {}/2 --attempt first", kCpu, index));
+    EXPECT_EQ(run("merge shards -o merged --no-report").exitCode, 1);
+    // Whichever part the case is in, the other one has to hear of it.
+    writeFile("cases/mine.glsl", readFile("cases/mine.glsl") + "// an edit\n");
+    for (int index = 1; index <= 2; ++index) {
+        run(fmt::format("run {} -o edited --shard {}/2 --attempt second", kCpu, index));
+        const int other = 3 - index;
+        const Outcome mixed = run(fmt::format(
+            "merge shards/shard-{}-of-2.first edited/shard-{}-of-2.second -o mixed --no-report", other, index));
+        EXPECT_EQ(mixed.exitCode, 2);
+        EXPECT_NE(mixed.err.find("the files of the cases differ"), std::string::npos) << mixed.err;
+    }
+}
+
 TEST_F(ShardTest, whatIsNoShardIsToldInOneLine)
 {
     writeFile("empty/readme", "");
@@ -187,4 +209,31 @@ TEST_F(ShardTest, ctestRunsEachCaseWithItsTagsAsLabels)
     EXPECT_FALSE(ctest("-L quick")); // b fails
     EXPECT_NE(readFile("ctest.out").find("1 tests failed out of 2"), std::string::npos) << readFile("ctest.out");
     EXPECT_TRUE(fs::exists(folder_ / "tests/out/set/b/planes/set/b/cpu64.exr"));
+}
+
+// The lines of docs/integration.md, as another project has them.
+TEST_F(ShardTest, anotherProjectHasItsCasesAmongItsTests)
+{
+    writeCase("project/cases/a.toml", "set/a", "tags = [\"quick\"]\nbackends = [\"cpu64\"]");
+    writeCase("project/cases/b.toml", "set/b", "tags = [\"slow\"]\nbackends = [\"cpu64\"]", kFails);
+    std::ifstream document(fs::path(CROSSRAY_SOURCE_DIR) / "docs/integration.md");
+    std::string lines, line;
+    while (std::getline(document, line) && line != "```cmake") {
+    }
+    while (std::getline(document, line) && line != "```")
+        lines += line + "\n";
+    ASSERT_NE(lines.find("list"), std::string::npos);
+    writeFile("project/CMakeLists.txt",
+              "cmake_minimum_required(VERSION 3.25)\nproject(other LANGUAGES NONE)\nenable_testing()\n" + lines);
+    const auto shell = [&](const std::string& command) {
+        return std::system(fmt::format("cd '{}' && CROSSRAY_CACHE='{}' {} >shell.out 2>&1", folder_.string(),
+                                       fs::absolute("cli-test-cache").string(), command)
+                               .c_str()) == 0;
+    };
+    ASSERT_TRUE(shell(fmt::format("cmake -S project -B b -D CMAKE_PROGRAM_PATH='{}'", fs::absolute(".").string())))
+        << readFile("shell.out");
+    EXPECT_TRUE(shell("ctest --test-dir b -L quick --no-tests=error")) << readFile("shell.out");
+    EXPECT_FALSE(shell("ctest --test-dir b"));
+    EXPECT_NE(readFile("shell.out").find("1 tests failed out of 2"), std::string::npos) << readFile("shell.out");
+    EXPECT_TRUE(fs::exists(folder_ / "b/cases/out/set/b/planes/set/b/cpu64.exr"));
 }

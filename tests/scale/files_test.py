@@ -96,9 +96,15 @@ def run_action(folder, given):
     inputs = {f"inputs.{key}": str(given.get(key, value["default"])) for key, value in action["inputs"].items()}
     inputs["inputs.arguments"] = ARGUMENTS
     assert action["runs"]["using"] == "composite"
+    assert all(action[key] for key in ("name", "description"))
+    assert all(value["description"] and "default" in value for value in action["inputs"].values()), action["inputs"]
     for step in action["runs"]["steps"]:
         assert "run" not in step or step["shell"] == "bash", step  # composite actions need it
+    place = folder / "docs/scale/github"  # where GitHub has the action's own files: another checkout, when it is another's
+    place.mkdir(parents=True, exist_ok=True)
+    os.environ["GITHUB_ACTION_PATH"] = str(place)
     run_steps(action["runs"]["steps"], folder, inputs)
+    del os.environ["GITHUB_ACTION_PATH"]
     # What upload and download do: each artifact becomes a folder of its own.
     for name, path in inputs["artifacts"].items():
         (folder / "parts").mkdir(exist_ok=True)
