@@ -16,11 +16,8 @@ void writePages(const MergedRun& merged, const MergeVerbOptions& options)
 {
     ReportOptions report;
     report.runFolder = options.output;
-    const size_t atHand = merged.run.cases.size();
-    if (atHand < merged.cases) {
-        report.leftOut.push_back(fmt::format("{} of {} cases: the pages show the first {} that failed",
-                                             merged.cases - atHand, merged.cases, atHand));
-    }
+    if (std::string left = describeLeftOut(merged.run.cases.size(), merged.cases); !left.empty())
+        report.leftOut.push_back(std::move(left));
     try {
         writeReport(merged.run, options.output, fs::path(options.output) / "report", report);
     } catch (const Error& error) {

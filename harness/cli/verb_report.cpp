@@ -3,6 +3,7 @@
 
 #include "harness/base/text.h"
 #include "harness/report/report.h"
+#include "harness/run/run_at_hand.h"
 #include "harness/run/run_json.h"
 
 #include <fmt/format.h>
@@ -34,8 +35,11 @@ int reportRun(const ReportVerbOptions& options)
 {
     const fs::path file = findRunJson(options.run);
     const fs::path runFolder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-    const RunResult run = readRun(options.run);
+    const RunAtHand atHand = readRunAtHand(options.run);
+    const RunResult& run = atHand.run;
     ReportOptions report;
+    if (std::string left = describeLeftOut(run.cases.size(), atHand.cases); !left.empty())
+        report.leftOut.push_back(std::move(left));
     report.isSingle = options.isSingle;
     report.runFolder = runFolder.generic_string();
     for (const std::string& trace : options.traces)

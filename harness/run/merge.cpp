@@ -190,20 +190,17 @@ class Merger {
         const bool isAtHand = merged_.cases <= options_.casesAtHand ||
                               (testCase.hasFailed && merged_.run.cases.size() < options_.casesAtHand);
         if (!isAtHand && !testCase.hasFiles && options_.junit.empty()) return;
-        CaseResult result = shard.file->parse(testCase.text);
+        const bool needsAll = isAtHand || testCase.hasFailed;
+        CaseResult result = needsAll ? shard.file->parse(testCase.text) : shard.file->parseBare(testCase.text);
         if (!options_.junit.empty()) junit.add(result);
-        takeFile(shard, result.expectedFile);
-        for (const BackendResult& backend : result.backends) {
-            takeFile(shard, backend.planesFile);
-            takeFile(shard, backend.traceFile);
-        }
+        for (const std::string& file : listFilesOf(result))
+            takeFile(shard, file);
         if (isAtHand) merged_.run.cases.push_back(std::move(result));
     }
 
     // Names of cases are names of folders, so the files of shards never meet.
     void takeFile(const ShardRun& shard, const std::string& file)
     {
-        if (file.empty()) return;
         const fs::path relative = fs::path(file).lexically_normal();
         if (relative.is_absolute() || *relative.begin() == "..") {
             throw InputError({shard.file->name(), 0, 0}, fmt::format("names a file outside its folder: {}", file));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "harness/run/results.h"
+#include "harness/run/run_at_hand.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -15,10 +16,9 @@ namespace crossray {
 struct MergeOptions {
     std::vector<std::filesystem::path> inputs; // folders of runs or shards, run.json files, folders that hold shards
     std::filesystem::path output;
-    std::filesystem::path junit; // empty: none
-    bool isPartial = false;      // shards may be missing
-    size_t casesAtHand =
-        20'000; // kept in the result for the pages: all where there are no more, else what did not pass
+    std::filesystem::path junit;       // empty: none
+    bool isPartial = false;            // shards may be missing
+    size_t casesAtHand = kCasesAtHand; // kept in the result for the pages
 };
 
 struct MergedRun {

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <map>
@@ -56,94 +55,27 @@ std::vector<fs::path> listAttempts(std::span<const fs::path> inputs)
     return attempts;
 }
 
-using Json = nlohmann::ordered_json;
-
-// Of a case what deciding about attempts takes: its name, and of each backend (the objects three brackets deep) verdict
-// and files. Without a tree of it, in a fraction of the time.
-class OutlineReader : public nlohmann::json_sax<Json> {
-  public:
-    std::string name;
-    std::vector<std::pair<std::string, Verdict>> verdicts; // by backend
-    bool hasFiles = false;
-
-    bool key(std::string& text) override
-    {
-        key_ = text;
-        return true;
-    }
-    bool string(std::string& text) override
-    {
-        if (depth_ == 1 && key_ == "name") name = text;
-        const bool isFile =
-            (depth_ == 1 && key_ == "expected") || (depth_ == 3 && (key_ == "planes" || key_ == "trace"));
-        if (isFile && !text.empty()) hasFiles = true;
-        if (depth_ == 3 && key_ == "backend") backend_ = text;
-        if (depth_ == 3 && key_ == "verdict") {
-            verdict_ = findVerdict(text);
-            if (!verdict_) throw InputError(fmt::format("\"{}\" is no verdict", text));
-        }
-        return true;
-    }
-    bool end_object() override
-    {
-        if (depth_-- == 3 && verdict_) verdicts.emplace_back(backend_, *verdict_);
-        if (depth_ == 2) verdict_.reset();
-        return true;
-    }
-    bool start_object(size_t) override { return ++depth_ > 0; }
-    bool start_array(size_t) override { return ++depth_ > 0; }
-    bool end_array() override { return --depth_ >= 0; }
-    bool null() override { return true; }
-    bool boolean(bool) override { return true; }
-    bool number_integer(Json::number_integer_t) override { return true; }
-    bool number_unsigned(Json::number_unsigned_t) override { return true; }
-    bool number_float(Json::number_float_t, const std::string&) override { return true; }
-    bool binary(Json::binary_t&) override { return true; }
-    bool parse_error(size_t, const std::string&, const nlohmann::detail::exception& error) override
-    {
-        throw InputError(error.what());
-    }
-
-  private:
-    int depth_ = 0;
-    std::string key_, backend_;
-    std::optional<Verdict> verdict_;
-};
-
 // Inputs are left out: on another kind of processor their last bits may be others.
-uint64_t hashVerdicts(const OutlineReader& outline)
+uint64_t hashVerdicts(const CaseResult& testCase)
 {
     std::string text;
-    for (const auto& [backend, verdict] : outline.verdicts)
-        text += fmt::format("{}={} ", backend, nameOf(verdict));
+    for (const BackendResult& result : testCase.backends)
+        text += fmt::format("{}={} ", result.backend, nameOf(result.verdict));
     return computeStableHash(text);
-}
-
-void addToCounts(RunCounts& counts, Verdict verdict)
-{
-    ++counts.byVerdict[verdict];
-    const Tally tally = tallyOf(verdict);
-    ++(tally == Tally::kPassed ? counts.passed : tally == Tally::kFailed ? counts.failed : counts.skipped);
 }
 
 void readCases(ShardRun& shard)
 {
     shard.cases.reserve(shard.file->cases().size());
     for (const std::string_view text : shard.file->cases()) {
-        OutlineReader outline;
-        try {
-            Json::sax_parse(text, &outline);
-            if (outline.name.empty()) throw InputError("a case has no name");
-        } catch (const InputError& error) {
-            throw InputError({shard.file->name(), 0, 0}, fmt::format("is no run.json: {}", error.what()));
-        }
-        bool hasFailed = false;
-        for (const auto& [backend, verdict] : outline.verdicts) {
-            addToCounts(shard.counts, verdict);
-            hasFailed = hasFailed || tallyOf(verdict) == Tally::kFailed;
-        }
-        const uint64_t verdicts = hashVerdicts(outline);
-        shard.cases.push_back({std::move(outline.name), text, verdicts, hasFailed, outline.hasFiles});
+        CaseResult bare = shard.file->parseBare(text);
+        addToCounts(shard.counts, bare);
+        const bool hasFailed =
+            std::any_of(bare.backends.begin(), bare.backends.end(),
+                        [](const BackendResult& backend) { return tallyOf(backend.verdict) == Tally::kFailed; });
+        const uint64_t verdicts = hashVerdicts(bare);
+        const bool hasFiles = !listFilesOf(bare).empty();
+        shard.cases.push_back({std::move(bare.name), text, verdicts, hasFailed, hasFiles});
         if (shard.cases.size() % kCasesBetweenReleases == 0) shard.file->release();
     }
     std::sort(shard.cases.begin(), shard.cases.end(),
@@ -298,6 +230,18 @@ class Reader {
 };
 
 } // namespace
+
+std::vector<std::string> listFilesOf(const CaseResult& testCase)
+{
+    std::vector<std::string> files{testCase.expectedFile};
+    if (testCase.conditioning) files.push_back(testCase.conditioning->file);
+    for (const BackendResult& result : testCase.backends) {
+        files.push_back(result.planesFile);
+        files.push_back(result.traceFile);
+    }
+    std::erase(files, "");
+    return files;
+}
 
 MergeInputs readMergeInputs(std::span<const fs::path> inputs, bool isPartial)
 {

@@ -19,7 +19,7 @@ struct ShardCase {
     std::string_view text; // of the shard's run.json
     uint64_t verdicts = 0; // hash over them: two attempts agree when these are equal
     bool hasFailed = false;
-    bool hasFiles = false; // planes or a trace beside the run.json
+    bool hasFiles = false; // planes and the like beside the run.json
 };
 
 // One attempt of one shard.
@@ -36,6 +36,9 @@ struct MergeInputs {
     std::vector<std::string> missing; // "3/4"
     std::vector<std::string> notes;
 };
+
+// Of a case, relative to its run's folder.
+std::vector<std::string> listFilesOf(const CaseResult& testCase);
 
 // Throws InputError; `isPartial` lets shards be missing.
 MergeInputs readMergeInputs(std::span<const std::filesystem::path> inputs, bool isPartial);

@@ -2,8 +2,8 @@
 
 #include "harness/base/text.h"
 #include "harness/run/case_flight.h"
+#include "harness/run/case_json.h"
 #include "harness/run/plane_files.h"
-#include "harness/run/run_json.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -67,7 +67,7 @@ std::string encodeKept(const KeptResult& kept)
     return Json{{"key", kept.key.hex()},
                 {"shaders", std::move(shaders)},
                 {"devices", std::move(devices)},
-                {"case", Json::parse(formatCaseJson(kept.result))}}
+                {"case", caseToJson(kept.result)}}
         .dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -83,7 +83,7 @@ std::optional<KeptResult> decodeKept(std::string_view text)
             const auto words = print.get<std::array<std::string, 6>>();
             kept.devices[backend] = {words[0], words[1], words[2], words[3], words[4], words[5]};
         }
-        kept.result = parseCaseJson(json.at("case").dump(), "a kept result");
+        kept.result = caseFromJson(json.at("case"));
         return kept;
     } catch (const nlohmann::json::exception&) {
         return std::nullopt;

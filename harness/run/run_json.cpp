@@ -1,6 +1,7 @@
 #include "harness/run/run_json.h"
 
 #include "harness/base/text.h"
+#include "harness/run/bare_case.h"
 #include "harness/run/case_json.h"
 #include "harness/run/run_slices.h"
 
@@ -175,23 +176,13 @@ RunJsonFrame formatRunJsonFrame(const RunResult& run)
     return {text + ",\n \"cases\": [", "]\n}\n"};
 }
 
-std::string indentCaseJson(std::string_view json)
-{
-    std::string text = "\n  ";
-    for (const char character : json) { // a line break within a string is written as \n
-        text += character;
-        if (character == '\n') text += "  ";
-    }
-    return text;
-}
-
 std::string formatRunJson(const RunResult& run)
 {
     const RunJsonFrame frame = formatRunJsonFrame(run);
     std::string text = frame.before;
     for (const CaseResult& testCase : run.cases) {
         if (&testCase != &run.cases.front()) text += ",";
-        text += indentCaseJson(caseToJson(testCase).dump(1, ' ', false, Json::error_handler_t::replace));
+        text += "\n  " + formatCaseJson(testCase);
     }
     if (!run.cases.empty()) text += "\n ";
     return text + frame.after;
@@ -276,6 +267,11 @@ RunFile::RunFile(const std::filesystem::path& path)
     if (!slices) throw InputError({name_, 0, 0}, "is no run.json: its cases are no one list");
     cases_ = std::move(slices->cases);
     release();
+}
+
+CaseResult RunFile::parseBare(std::string_view testCase) const
+{
+    return parseNamed(name_, [&] { return parseBareCase(testCase); });
 }
 
 RunResult readRun(const std::filesystem::path& path)

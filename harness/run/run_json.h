@@ -15,15 +15,15 @@ namespace crossray {
 
 inline constexpr std::string_view kRunSchema = "crossray-run/1";
 
-// Numbers that JSON does not have are the strings "NaN", "Infinity" and "-Infinity".
+// Numbers that JSON does not have are the strings "NaN", "Infinity" and "-Infinity". The head is indented for people;
+// of the cases, which may be millions, each stands on a line of its own.
 std::string formatRunJson(const RunResult& run);
-// The same in pieces, for a run whose cases are not all at hand: between the two stand the cases, each
-// indentCaseJson(text), with commas between them and "\n " after the last. The counts in it are countVerdicts(run)'s.
+// The same in pieces, for a run whose cases are not all at hand: between the two stand the cases, each after "\n  " as
+// formatCaseJson has it, with commas between them and "\n " after the last. The counts in it are countVerdicts(run)'s.
 struct RunJsonFrame {
     std::string before, after;
 };
 RunJsonFrame formatRunJsonFrame(const RunResult& run);
-std::string indentCaseJson(std::string_view json);
 // One of its cases, on one line.
 std::string formatCaseJson(const CaseResult& testCase);
 // All of it but the cases, on one line.
@@ -45,7 +45,8 @@ class RunFile {
     const RunResult& head() const { return head_; } // without cases
     std::span<const std::string_view> cases() const { return cases_; }
     CaseResult parse(std::string_view testCase) const { return parseCaseJson(testCase, name_); }
-    void release() const { file_.release(); } // what was read may leave the memory
+    CaseResult parseBare(std::string_view testCase) const; // as parseBareCase
+    void release() const { file_.release(); }              // what was read may leave the memory
 
   private:
     std::string name_;

@@ -54,55 +54,103 @@ function breakable(name) {
   return name.split(/(?<=[/_,[=])/).flatMap((part, i) => (i === 0 ? [part] : [document.createElement('wbr'), part]));
 }
 
-function makeRow({ item, results }, id, isFailed) {
+function makeRow({ item, results }, at, isFailed) {
   const passed = results.filter((result) => result.tally === 'passed');
   const worst = isFailed || passed.length === 0 ? worstResult(results) : passed[0];
   const shortName = isFailed ? item.name : item.name.split('/').pop();
   const backends = describeBackends(item, results);
-  return h('div', { role: 'option', id, class: 'row', 'data-name': item.name, title: `${item.name}\n${item.summary}` },
+  return h('div', { role: 'option', id: `case-${at}`, class: 'row', 'aria-selected': 'false', 'data-name': item.name, title: `${item.name}\n${item.summary}` },
     verdictMark(worst.verdict, worst.tally),
     h('span', { class: 'hidden' }, worst.verdict),
     h('span', { class: 'name' }, breakable(shortName)),
     backends && h('span', { class: 'on' }, backends));
 }
 
+const kRowsAtOnce = 1000; // so many are drawn at once; of more each piece is drawn when it comes near
+const kRowsOfPiece = 200;
+const kRowHeight = 22; // of a name on one line
+
 /** Draws the list and keeps its keys: `choose(name)` hears a choice. */
 export function createList(cases, choose) {
   const box = document.getElementById('cases');
   const count = document.getElementById('filter-count');
-  let rows = [];
+  let entries = []; // of the rows, drawn or not
+  let places = new Map(); // name -> place among them
+  let pieces = []; // of the rows, in order: {box, start, end, isFailed, isDrawn}
+  let selected = null; // a row
+  const nearness = new IntersectionObserver((seen) => {
+    for (const { target, isIntersecting } of seen) if (isIntersecting) drawPiece(pieces[Number(target.dataset.piece)]);
+  }, { root: box, rootMargin: '100%' });
+
+  function drawPiece(piece) {
+    if (!piece || piece.isDrawn) return;
+    piece.isDrawn = true;
+    nearness.unobserve(piece.box);
+    piece.box.style.minHeight = '';
+    const rows = entries.slice(piece.start, piece.end).map((entry, i) => makeRow(entry, piece.start + i, piece.isFailed));
+    if (entries.length > kRowsAtOnce) {
+      rows.forEach((row, i) => {
+        row.setAttribute('aria-setsize', String(entries.length));
+        row.setAttribute('aria-posinset', String(piece.start + i + 1));
+      });
+    }
+    piece.box.replaceChildren(...rows);
+  }
+
+  function makePieces(group) {
+    const made = [];
+    for (let first = 0; first < group.items.length; first += kRowsOfPiece) {
+      const items = group.items.slice(first, first + kRowsOfPiece);
+      const start = entries.length;
+      for (const entry of items) {
+        places.set(entry.item.name, entries.length);
+        entries.push(entry);
+      }
+      const piece = { start, end: entries.length, isFailed: group.failed, isDrawn: false,
+        box: h('div', { role: 'presentation', 'data-piece': String(pieces.length), style: `min-height:${items.length * kRowHeight}px` }) };
+      pieces.push(piece);
+      made.push(piece.box);
+    }
+    return made;
+  }
 
   function draw(filterText) {
     const groups = groupCases(cases, filterText);
-    rows = [];
+    nearness.disconnect();
+    [entries, places, pieces, selected] = [[], new Map(), [], null];
     const parts = groups.map((group, g) => {
-      const options = group.items.map((entry) => {
-        const row = makeRow(entry, `case-${rows.length}`, group.failed);
-        rows.push(row);
-        return row;
-      });
       const title = h('div', { class: group.failed ? 'group failed' : 'group', id: `group-${g}`, role: 'presentation' },
         h('span', {}, group.title), h('span', { class: 'size' }, String(group.items.length)));
-      return h('div', { role: 'group', 'aria-labelledby': `group-${g}` }, title, ...options);
+      return h('div', { role: 'group', 'aria-labelledby': `group-${g}` }, title, ...makePieces(group));
     });
+    for (const piece of pieces) {
+      if (entries.length <= kRowsAtOnce || piece.end <= kRowsOfPiece) drawPiece(piece);
+      else nearness.observe(piece.box);
+    }
     box.replaceChildren(...(parts.length > 0 ? parts : [h('p', { class: 'empty' }, 'No case fits the filter.')]));
-    count.textContent = filterText.trim() === '' ? `${cases.length}` : `${rows.length} of ${cases.length}`;
+    count.textContent = filterText.trim() === '' ? `${cases.length}` : `${entries.length} of ${cases.length}`;
+  }
+
+  function rowOf(name) {
+    const at = places.get(name);
+    if (at === undefined) return null;
+    drawPiece(pieces.find((piece) => at < piece.end));
+    return document.getElementById(`case-${at}`);
   }
 
   function select(name, scroll = true) {
-    for (const row of rows) {
-      const chosen = row.dataset.name === name;
-      row.setAttribute('aria-selected', String(chosen));
-      if (!chosen) continue;
-      box.setAttribute('aria-activedescendant', row.id);
-      if (scroll) row.scrollIntoView({ block: 'nearest' });
-    }
+    selected?.setAttribute('aria-selected', 'false');
+    selected = rowOf(name);
+    if (!selected) return;
+    selected.setAttribute('aria-selected', 'true');
+    box.setAttribute('aria-activedescendant', selected.id);
+    if (scroll) selected.scrollIntoView({ block: 'nearest' });
   }
 
   /** The case so many rows on; null at an end. */
   function neighbour(name, by) {
-    const at = rows.findIndex((row) => row.dataset.name === name);
-    return rows[at < 0 ? 0 : at + by]?.dataset.name ?? null;
+    const at = places.get(name);
+    return entries[at === undefined ? 0 : at + by]?.item.name ?? null;
   }
 
   box.addEventListener('click', (event) => {
@@ -114,10 +162,9 @@ export function createList(cases, choose) {
     if (by === undefined) return;
     event.preventDefault();
     event.stopPropagation();
-    const selected = box.querySelector('[aria-selected=true]');
-    const at = rows.indexOf(selected);
-    const row = rows[Math.min(rows.length - 1, Math.max(0, at + by))];
-    if (row) choose(row.dataset.name);
+    const at = selected ? places.get(selected.dataset.name) : -1;
+    const entry = entries[Math.min(entries.length - 1, Math.max(0, at + by))];
+    if (entry) choose(entry.item.name);
   });
-  return { draw, select, neighbour, first: () => rows[0]?.dataset.name ?? null };
+  return { draw, select, neighbour, first: () => entries[0]?.item.name ?? null };
 }

@@ -389,7 +389,7 @@ function start() {
   const first = item ?? cases.get(list.first());
   if (first && first !== item) update({ case: first.name });
   else if (first) loadCase(first);
-  else panes.message(h('p', {}, 'This run has no cases.'));
+  else panes.message(h('p', {}, index.leftOut[0] ?? 'This run has no cases.'));
 }
 
 start();

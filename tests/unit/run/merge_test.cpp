@@ -331,3 +331,32 @@ TEST(RunSlices, takeTheTextApartAndNothingElse)
                                "{\"cases\": [], \"cases\": []}", "{\"cases\": [\"}"})
         EXPECT_FALSE(sliceRunJson(broken)) << broken;
 }
+
+TEST_F(MergeTest, aRunOfMoreCasesThanPagesShowIsReadByItsFailures)
+{
+    RunResult run = makeRun(kNames);
+    fs::create_directories(folder_ / "whole");
+    writeFileWhole(folder_ / "whole/run.json", formatRunJson(run));
+    const RunAtHand all = readRunAtHand(folder_ / "whole", 6);
+    EXPECT_EQ(formatRunJson(all.run), formatRunJson(run));
+    EXPECT_EQ(describeLeftOut(all.run.cases.size(), all.cases), "");
+    const RunAtHand failed = readRunAtHand(folder_ / "whole", 5);
+    ASSERT_EQ(failed.run.cases.size(), 1u);
+    EXPECT_EQ(failed.run.cases[0].name, "d");
+    EXPECT_EQ(failed.cases, 6u);
+    EXPECT_EQ(countVerdicts(failed.run).passed, countVerdicts(run).passed);
+    EXPECT_TRUE(contains(describeLeftOut(1, 6), "5 of 6 cases")) << describeLeftOut(1, 6);
+    EXPECT_TRUE(contains(describeLeftOut(0, 6), "none did"));
+}
+
+TEST_F(MergeTest, whatWasMeasuredOfPixelsComesAlong)
+{
+    writeAll();
+    RunResult second = makeShard(2);
+    second.cases[0].conditioning.emplace().file = "planes/c/conditioning.exr";
+    const fs::path place = write(second);
+    fs::create_directories(place / "planes/c");
+    writeFileWhole(place / "planes/c/conditioning.exr", "measured");
+    merge();
+    EXPECT_EQ(readText(folder_ / "out/planes/c/conditioning.exr"), "measured");
+}

@@ -1,5 +1,8 @@
 #include "harness/run/run_json.h"
 
+#include "harness/run/bare_case.h"
+
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -94,4 +97,45 @@ TEST(RunJson, everyFieldIsDocumented)
     const std::string document = content.str();
     for (const std::string& field : listRunJsonFields())
         EXPECT_NE(document.find("`" + field + "`"), std::string::npos) << field << " is not in docs/run-json.md";
+}
+
+TEST(BareCase, isWhatAListOfCasesNeeds)
+{
+    RunResult run = makeRun();
+    CaseResult& testCase = run.cases.at(0);
+    testCase.name = "quoted \"name\" \\ with \u00e4 and \x01";
+    testCase.conditioning.emplace().file = "planes/a/conditioning.exr";
+    testCase.backends[0].times.worker = 1.25e-3;
+    const CaseResult bare = parseBareCase(formatCaseJson(testCase));
+    const CaseResult whole = parseCaseJson(formatCaseJson(testCase), "a");
+    EXPECT_EQ(bare.name, testCase.name);
+    EXPECT_EQ(bare.position.file, whole.position.file);
+    EXPECT_EQ(bare.position.line, whole.position.line);
+    EXPECT_EQ(bare.expectedFile, whole.expectedFile);
+    EXPECT_EQ(bare.conditioning->file, whole.conditioning->file);
+    ASSERT_EQ(bare.backends.size(), whole.backends.size());
+    for (size_t i = 0; i < bare.backends.size(); ++i) {
+        EXPECT_EQ(bare.backends[i].backend, whole.backends[i].backend);
+        EXPECT_EQ(bare.backends[i].verdict, whole.backends[i].verdict);
+        EXPECT_EQ(bare.backends[i].reason, whole.backends[i].reason);
+        EXPECT_EQ(bare.backends[i].times.worker, whole.backends[i].times.worker);
+        EXPECT_EQ(bare.backends[i].planesFile, whole.backends[i].planesFile);
+        EXPECT_EQ(bare.backends[i].traceFile, whole.backends[i].traceFile);
+    }
+}
+
+TEST(BareCase, whatIsNoJsonIsRefusedWhereverItBreaks)
+{
+    const std::string text = formatCaseJson(makeRun().cases.at(0));
+    EXPECT_NO_THROW(parseBareCase(text));
+    for (size_t length = 0; length < text.size(); ++length)
+        EXPECT_THROW(parseBareCase(text.substr(0, length)), InputError) << length;
+    for (const char* more : {"", R"(,"x":[1,2,{"y":null}],"z":-1.5e+3,"w":true)"})
+        EXPECT_NO_THROW(parseBareCase(fmt::format(R"({{"name":"a","backends":[]{}}})", more))) << more;
+    for (const char* wrong : {R"(,"x":[1,])", R"(,"x":+1)", R"(,"x":1.)", R"(,"x":nul)", R"(,"x")", R"(,"x":"a)", ",",
+                              R"(,"backends":[{"backend":"b"}])", R"(,"backends":[{"backend":"b","verdict":"what"}])",
+                              R"(,"name":3)", R"(,"name":"")"})
+        EXPECT_THROW(parseBareCase(fmt::format(R"({{"name":"a","backends":[]{}}})", wrong)), InputError) << wrong;
+    EXPECT_THROW(parseBareCase(R"({"name":"a","x":)" + std::string(100'000, '[')), InputError)
+        << "the stack is bounded";
 }
