@@ -34,7 +34,7 @@ class Dice {
 double costlyFrom(const KeySpec& spec)
 {
     if (spec.path() == "scene.size" || spec.path() == "probe.mirror.size") return 24;
-    if (spec.path() == "scene.poison_every") return 12; // beyond that no texel of these images
+    if (spec.path() == "scene.poison_every") return 5; // these images are small
     if (spec.path() == "environment.size") return 32;
     if (spec.path() == "environment.bounces") return 2;
     if (spec.path() == "scene.primitives.object") return 4;

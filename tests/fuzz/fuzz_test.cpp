@@ -14,6 +14,7 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <set>
 #include <sstream>
 #include <thread>
 
@@ -25,7 +26,7 @@ namespace {
 // Cases that share their names and switches, and so most of their shader variants: compiling one takes as long as
 // running a hundred.
 constexpr uint64_t kCasesPerVariant = 40;
-constexpr uint64_t kAllDriversEvery = 5; // no multiple of the number of drivers
+constexpr uint64_t kAllDriversEvery = 7; // shares no factor with the number of turns
 constexpr int kCores = 2;
 constexpr int kMostCuts = 300;
 
@@ -35,11 +36,12 @@ uint64_t readVariable(const char* name, uint64_t otherwise)
     return text ? std::strtoull(text, nullptr, 10) : otherwise;
 }
 
-// Drivers beside cpu64 and cpu32, where they are installed.
+// Drivers beside cpu64 and cpu32 in the order of their turns, where they are installed. The two that LLVM compiles for
+// take five times as long as the others and share their arithmetic: together they have one turn in three.
 std::vector<std::string> findDrivers()
 {
     const char* const asked = std::getenv("CROSSRAY_FUZZ_BACKENDS");
-    std::istringstream list(asked ? asked : "lavapipe,osmesa,swiftshader,softpipe");
+    std::istringstream list(asked ? asked : "swiftshader,softpipe,lavapipe,swiftshader,softpipe,osmesa");
     std::vector<std::string> names;
     for (std::string name; std::getline(list, name, ',');) {
         for (const BackendInfo& info : listBackends()) {
@@ -50,12 +52,14 @@ std::vector<std::string> findDrivers()
 }
 
 // A driver compiles each variant for as long as it runs a hundred cases: the cases that share variants share one
-// driver, and every fifth group of them is run by all.
-std::vector<std::string> chooseDrivers(const std::vector<std::string>& drivers, uint64_t seed)
+// driver, and every seventh group of them is run by all.
+std::vector<std::string> chooseDrivers(const std::vector<std::string>& turns, uint64_t seed)
 {
     const uint64_t group = seed / kCasesPerVariant;
-    if (drivers.empty() || group % kAllDriversEvery == kAllDriversEvery - 1) return drivers;
-    return {drivers[group % drivers.size()]};
+    if (turns.empty()) return {};
+    if (group % kAllDriversEvery != kAllDriversEvery - 1) return {turns[group % turns.size()]};
+    const std::set<std::string> all(turns.begin(), turns.end());
+    return {all.begin(), all.end()};
 }
 
 CaseFuzzer::Options makeOptions(const fs::path& shaders, const char* scratch)
