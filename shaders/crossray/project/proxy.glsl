@@ -57,7 +57,15 @@ vec2 intersectSlab(float origin, float dir, float extent)
     return isParallel ? parallel : vec2(min(a, b), max(a, b));
 }
 
-// A box of half extents (metres) about a centre; worldFromProxy is a rotation.
+// From where the way along one axis ends to the face that it leaves by; 0 for the axes that the ray does not leave by.
+float computeFaceGap(float origin, float dir, float extent, float to, float leave)
+{
+    float gap = choose(dir < 0.0, -extent, extent) - (origin + dir * leave);
+    return choose(to <= leave, gap, 0.0);
+}
+
+// A box of half extents (metres) about a centre; worldFromProxy is a rotation. The hit is put on its face: the sum of
+// origin and way is as exact as they are long, and a face may be nearer to the eye's plane than that.
 ProxyHit projectProxyBox(vec3 originWS, vec3 dirWS, vec3 centerWS, mat3 worldFromProxy, vec3 halfExtents)
 {
     vec3 dir = safeNormalize(dirWS, vec3(0.0));
@@ -74,8 +82,15 @@ ProxyHit projectProxyBox(vec3 originWS, vec3 dirWS, vec3 centerWS, mat3 worldFro
     float leave = min(x.y, min(y.y, z.y));
     float margin = kProxyTolerance * maxComponent(halfExtents);
     bool meets = leave >= enter - margin && leave >= -margin && leave < 1e29;
-    if (meets) return makeProxyHit(originWS, dir, leave);
-    return makeProxyMiss(originWS, kHitReasonNoProxyHit);
+    if (!meets) return makeProxyMiss(originWS, kHitReasonNoProxyHit);
+    ProxyHit onRay = makeProxyHit(originWS, dir, leave);
+    vec3 gapPS = vec3(computeFaceGap(originPS.x, dirPS.x, halfExtents.x, x.y, leave),
+                      computeFaceGap(originPS.y, dirPS.y, halfExtents.y, y.y, leave),
+                      computeFaceGap(originPS.z, dirPS.z, halfExtents.z, z.y, leave));
+    vec3 onFaceWS = onRay.positionWS + worldFromProxy * gapPS;
+    bool isOutside = leave <= 0.0; // by the tolerance: the hit is the origin
+    bool staysPut = isOutside || !onRay.hit;
+    return ProxyHit(choose(staysPut, onRay.positionWS, onFaceWS), onRay.distance, onRay.hit, onRay.reason);
 }
 
 // A sphere of `radius` metres about a centre. The distance comes from the product of the roots where their difference
