@@ -1,6 +1,7 @@
 #!/bin/bash
 # The libFuzzer targets of tests/fuzz/targets, built by clang with both sanitizers, for a short while each over their corpora.
 #   smoke.sh build              configures and builds them into build-fuzz/
+#   smoke.sh unit MODULE        runs a module's unit tests, built alike (docs/decisions/0012-sanitizers-in-test.md)
 #   smoke.sh TARGET [SECONDS]   runs one of them: no crash, no hang, no leak, no more than 2 GiB
 # Exit code 77: cannot be run here, with the reason. Longer, and with inputs that are new each time: CONTRIBUTING.md.
 set -uo pipefail
@@ -23,6 +24,11 @@ if [ "$1" = build ]; then
     { cmake --preset fuzz "${launcher[@]}" && cmake --build --preset fuzz; } >"$probe/log" 2>&1 && exit 0
     tail -n 60 "$probe/log"
     exit 1
+fi
+
+if [ "$1" = unit ]; then
+    [ -x "$build/test_$2" ] || skip "test_$2 has not been built (smoke.sh build)"
+    cd "$build" && exec "./test_$2" --gtest_brief=1
 fi
 
 target=$1
