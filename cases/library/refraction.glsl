@@ -1,5 +1,6 @@
 // Made by tables.py: functions of the library on the rows of data/. Confidence is 1 where the row's answers are right; else HitDepth
 // says which is wrong first (function * 100 + output, from 1), and HitPositionSS what it was and what was expected.
+#include "crossray/refract/refraction.glsl"
 #include "crossray/refract/fresnel.glsl"
 #include "crossray/refract/absorption.glsl"
 #include "crossray/core/reflection.glsl"

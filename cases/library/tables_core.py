@@ -341,7 +341,7 @@ def refractTables():
                   [[0.5, 0.9, 0.8], 0.005, 0.004], [[0.5, 0.9, 0.8], 5e-6, 1e-5], [[0.5, 0.9, 0.8], 65504, 65504], [[0.5, 0.9, 0.8], 65504, 1e6], [[0.5, 0.9, 0.8], 65504, kInf],
                   [[0.95, 0.2, 0.999], 0.75, 0.5], [[0, 0, 0], 1, -0.0], [[0, 0, 0], 1, 0]],
                  transmittance, "vec3 t = computeTransmittance(c, a, path);", relative=4e-5, absolute=1e-7),
-    ], ["crossray/refract/fresnel.glsl", "crossray/refract/absorption.glsl", "crossray/core/reflection.glsl"])
+    ], ["crossray/refract/refraction.glsl", "crossray/refract/fresnel.glsl", "crossray/refract/absorption.glsl", "crossray/core/reflection.glsl"])
 
 
 # ------------------------------------------------------------------ hierarchy/, project/march_end, project/reprojection
