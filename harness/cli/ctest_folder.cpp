@@ -25,13 +25,13 @@ std::string formatArgument(const Case& testCase)
 // A bracket argument of CMake's, which takes all that is in it as it stands.
 std::string quote(const std::string& text)
 {
-    return "[======[" + text + "]======]";
+    return fmt::format("[======[{}]======]", text);
 }
 
 // The results go below the folder, from wherever CTest starts: another project may include it in its own tests.
 std::string formatTest(const Case& testCase, const std::vector<std::string>& common, const fs::path& folder)
 {
-    std::string text = "add_test(" + quote(testCase.name);
+    std::string text = fmt::format("add_test({}", quote(testCase.name));
     for (const std::string& word : common)
         text += " " + quote(word);
     return text + fmt::format(" {} {})\nset_tests_properties({} PROPERTIES LABELS {} TIMEOUT 600)\n",

@@ -28,10 +28,10 @@ struct Parting {
 struct PixelTrace {
     std::string caseName, summary;
     glm::ivec2 pixel{0};
-    std::vector<RecordOnBackend> records;        // one or two
-    std::optional<Parting> parting;              // of two
-    std::vector<PixelConditioning> conditioning; // of each output, where it was measured
-    std::string conditioningNote;                // why it was not
+    std::vector<RecordOnBackend> records;          // one or two
+    std::optional<Parting> parting;                // of two
+    std::vector<PixelConditioning> conditioning{}; // of each output, where it was measured
+    std::string conditioningNote{};                // why it was not
 };
 
 // "31,12". Throws InputError.

@@ -190,7 +190,9 @@ TEST(Fuzz, EveryKeyIsDrawn)
         const bool isRun = key.table.starts_with("expect") || key.table.starts_with("known_failure") ||
                            key.table.starts_with("gbuffer") || key.table == "expand" || key.table == "rotation" ||
                            key.table.empty();
-        if (!isText && !isRun) EXPECT_GT(drawn[path], 0) << path;
+        if (!isText && !isRun) {
+            EXPECT_GT(drawn[path], 0) << path;
+        }
     }
 }
 

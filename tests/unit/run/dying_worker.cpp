@@ -13,6 +13,7 @@
 #include <map>
 #include <poll.h>
 #include <sched.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 namespace crossray {
@@ -54,13 +55,24 @@ int countPredecessors(const fs::path& folder)
     return failure ? 0 : static_cast<int>(size);
 }
 
+// Whether one of the planted deaths is left for this process. However the cases fall to the cores, all are taken.
+bool takeDeath(const fs::path& folder)
+{
+    int planted = 0;
+    std::ifstream(folder / "deaths") >> planted;
+    const int taken = ::open((folder / "taken").c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+    if (taken < 0 || ::flock(taken, LOCK_EX) != 0) std::_Exit(99);
+    const bool isLeft = ::lseek(taken, 0, SEEK_END) < planted;
+    if (isLeft && ::write(taken, ".", 1) != 1) std::_Exit(99);
+    ::close(taken);
+    return isLeft;
+}
+
 Fate chooseFate(const fs::path& folder, int& serial)
 {
-    int perCore = 0;
-    std::ifstream(folder / "deaths") >> perCore;
     serial = countPredecessors(folder);
     // Two in a row that never begin a job, and two that do.
-    return serial < perCore ? static_cast<Fate>(serial % 4) : Fate::kLives;
+    return takeDeath(folder) ? static_cast<Fate>(serial % 4) : Fate::kLives;
 }
 
 } // namespace
@@ -78,9 +90,9 @@ DeathLog readDeathLog(const fs::path& folder)
     return log;
 }
 
-void plantDeaths(const fs::path& folder, int perCore)
+void plantDeaths(const fs::path& folder, int count)
 {
-    std::ofstream(folder / "deaths") << perCore;
+    std::ofstream(folder / "deaths") << count;
 }
 
 int serveDying(const fs::path& folder, const std::string& backend, int requestFd, int replyFd)

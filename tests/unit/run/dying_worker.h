@@ -19,8 +19,8 @@ struct DeathLog {
     int count() const { return opening + arrival + between + static_cast<int>(jobs.size()); }
 };
 DeathLog readDeathLog(const std::filesystem::path& folder);
-// How many processes of each core die; the ones after them live. The test writes it before it starts any.
-void plantDeaths(const std::filesystem::path& folder, int perCore);
+// How many processes die; the ones after them live. The test writes it before it starts any.
+void plantDeaths(const std::filesystem::path& folder, int count);
 
 // main() of such a worker: one that answers on a real device until it dies.
 int serveDying(const std::filesystem::path& folder, const std::string& backend, int requestFd, int replyFd);
