@@ -18,8 +18,10 @@ crossray_fuzz_target(case USES crossray_case)
 crossray_fuzz_target(exr USES crossray_scene)
 crossray_fuzz_target(camera USES crossray_scene)
 # What reads and merges run.json, without what runs.
+file(GLOB run_json_sources CONFIGURE_DEPENDS harness/run/run_json*.cpp harness/run/*_json.cpp harness/run/bare_case.cpp)
+list(REMOVE_DUPLICATES run_json_sources)
 crossray_fuzz_target(run
-  SOURCES harness/run/run_json.cpp harness/run/run_slices.cpp harness/run/results.cpp harness/run/verdict.cpp
+  SOURCES ${run_json_sources} harness/run/run_slices.cpp harness/run/results.cpp harness/run/verdict.cpp
           harness/run/merge_inputs.cpp harness/run/run_plan_compare.cpp harness/run/attempt.cpp harness/run/shard.cpp
   USES crossray_case nlohmann_json::nlohmann_json)
 crossray_fuzz_target(question
