@@ -33,7 +33,7 @@ std::string formatTest(const Case& testCase, const std::vector<std::string>& com
 {
     std::string text = fmt::format("add_test({}", quote(testCase.name));
     for (const std::string& word : common)
-        text += " " + quote(word);
+        text += fmt::format(" {}", quote(word));
     return text + fmt::format(" {} {})\nset_tests_properties({} PROPERTIES LABELS {} TIMEOUT 600)\n",
                               quote("--output=" + (folder / "out" / testCase.name).string()),
                               quote(formatArgument(testCase)), quote(testCase.name),
