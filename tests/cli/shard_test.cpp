@@ -230,7 +230,8 @@ TEST_F(ShardTest, anotherProjectHasItsCasesAmongItsTests)
                                        fs::absolute("cli-test-cache").string(), command)
                                .c_str()) == 0;
     };
-    ASSERT_TRUE(shell(fmt::format("cmake -S project -B b -D CMAKE_PROGRAM_PATH='{}'", fs::absolute(".").string())))
+    ASSERT_TRUE(
+        shell(fmt::format("cmake -G Ninja -S project -B b -D CMAKE_PROGRAM_PATH='{}'", fs::absolute(".").string())))
         << readFile("shell.out");
     EXPECT_TRUE(shell("ctest --test-dir b -L quick --no-tests=error")) << readFile("shell.out");
     EXPECT_FALSE(shell("ctest --test-dir b"));
