@@ -111,12 +111,11 @@ CaseFuzzer::CaseFuzzer(Options options)
       pool_(WorkerOptions{
           .mesaCacheFolder = options_.cache / "mesa", .cores = options_.cores, .executable = options_.executable})
 {
-    std::filesystem::create_directories(options_.scratch);
 }
 
 std::filesystem::path CaseFuzzer::scratchFile(int core) const
 {
-    return options_.scratch / fmt::format("core{}.toml", core);
+    return scratch_.path() / fmt::format("core{}.toml", core);
 }
 
 std::vector<Plane> CaseFuzzer::ask(const Subject& subject, const std::string& backend, const Job& job)

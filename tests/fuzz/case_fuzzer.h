@@ -3,6 +3,7 @@
 
 #include "tests/fuzz/case_generator.h"
 
+#include "harness/base/temporary_folder.h"
 #include "harness/compile/compile.h"
 #include "harness/run/worker_pool.h"
 
@@ -42,13 +43,13 @@ struct CaseOutcome {
 class CaseFuzzer {
   public:
     struct Options {
-        std::filesystem::path shaders, cache, scratch;
+        std::filesystem::path shaders, cache;
         std::string executable; // of the workers
         int cores = 1;
     };
     explicit CaseFuzzer(Options options);
 
-    // One file and one set of workers a core.
+    // One file and one set of workers a core; the file is no other process's, so that several may run side by side.
     std::filesystem::path scratchFile(int core) const;
     // `backends` are asked beside cpu64 and cpu32.
     CaseOutcome check(const Node& root, int core, std::span<const std::string> backends);
@@ -73,6 +74,7 @@ class CaseFuzzer {
     void compareClasses(const Subject& subject, const std::vector<Classes>& classes, CaseOutcome& outcome);
 
     Options options_;
+    TemporaryFolder scratch_{"fuzz"};
     ShaderCompiler compiler_;
     WorkerPool pool_;
 };

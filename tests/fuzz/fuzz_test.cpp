@@ -62,12 +62,11 @@ std::vector<std::string> chooseDrivers(const std::vector<std::string>& turns, ui
     return {all.begin(), all.end()};
 }
 
-CaseFuzzer::Options makeOptions(const fs::path& shaders, const char* scratch)
+CaseFuzzer::Options makeOptions(const fs::path& shaders)
 {
     CaseFuzzer::Options options;
     options.shaders = shaders;
     options.cache = CROSSRAY_BINARY_DIR "/fuzz-cache";
-    options.scratch = fs::path(CROSSRAY_BINARY_DIR) / scratch;
     options.executable = CROSSRAY_BINARY_DIR "/worker_program";
     options.cores = kCores;
     return options;
@@ -127,7 +126,7 @@ void reportFinding(const CaseFuzzer& fuzzer, std::vector<std::string> backends, 
 TEST(Fuzz, RandomCasesAreFiniteBoundedAndAgree)
 {
     const uint64_t first = readVariable("CROSSRAY_FUZZ_FIRST", 0), count = readVariable("CROSSRAY_FUZZ_CASES", 500);
-    const CaseFuzzer::Options options = makeOptions(fs::path(CROSSRAY_SOURCE_DIR) / "shaders", "fuzz");
+    const CaseFuzzer::Options options = makeOptions(fs::path(CROSSRAY_SOURCE_DIR) / "shaders");
     const std::vector<std::string> drivers = findDrivers();
     CaseFuzzer fuzzer(options);
     std::atomic<uint64_t> next = first / kCasesPerVariant;
@@ -212,7 +211,7 @@ TEST(Fuzz, AFaultIsFoundCutDownAndWrittenAsACase)
     code.replace(code.find(guard), guard.size(), "return max(transmittance, kSmallestTransmittance);");
     std::ofstream(faulty) << code;
 
-    const CaseFuzzer::Options options = makeOptions(shaders, "fuzz-fault");
+    const CaseFuzzer::Options options = makeOptions(shaders);
     std::vector<std::string> drivers = findDrivers();
     if (drivers.empty()) GTEST_SKIP() << "no driver is installed";
     drivers.resize(1);
