@@ -21,14 +21,6 @@ namespace {
 // What an own tracer calls the functions of a file that it includes once more, with hooks of its own (cases/library).
 constexpr std::string_view kCopyPrefix = "copyOf_";
 
-size_t countFunctions(const std::vector<uint32_t>& spirv)
-{
-    size_t count = 0;
-    forEachSpirvInstruction(spirv,
-                            [&](uint32_t opcode, std::span<const uint32_t>) { count += opcode == spv::OpFunction; });
-    return count;
-}
-
 std::map<std::string, std::set<uint32_t>> findLines(const std::vector<uint32_t>& spirv)
 {
     std::map<uint32_t, std::string> strings;
@@ -152,17 +144,12 @@ const std::set<std::string>& MutantLibrary::reachOf(const ProgramKey& program)
     return variantOf(program).reach;
 }
 
-std::vector<uint32_t> MutantLibrary::finish(const Parsed& parsed, const ProgramKey& program,
-                                            const std::set<std::string>* mangled) const
+std::vector<uint32_t> MutantLibrary::finish(const Parsed& parsed, const ProgramKey& program) const
 {
-    if (mangled != nullptr) {
-        const std::vector<uint32_t> emptied = parsed.functions->emptyOthers(*mangled);
-        const std::vector<uint32_t> frozen = stripDebugInfo(specialize(emptied, program.specialization, false));
-        const std::vector<uint32_t> pruned = dropDeadFunctions(frozen);
-        // A change that calls what the variant did not call before is compiled with all its functions.
-        if (countFunctions(pruned) <= mangled->size()) return optimizeRest(pruned);
-    }
-    return optimizeRest(dropDeadFunctions(specialize(parsed.spirv, program.specialization, false)));
+    // By its own reach: a changed branch may call what the variant did not call before.
+    const std::vector<uint32_t> kept =
+        parsed.functions->keepOnly(parsed.functions->find(program.specialization), false);
+    return optimizeRest(dropDeadFunctions(specialize(kept, program.specialization, false)));
 }
 
 MutantLibrary::Variant& MutantLibrary::compiledOf(const ProgramKey& program)
@@ -177,9 +164,9 @@ MutantLibrary::Variant& MutantLibrary::compiledOf(const ProgramKey& program)
     if (!variant.isCompiled) {
         // With its lines, which change no code.
         const Parsed& parsed = parsedOf(program);
-        const std::vector<uint32_t> emptied = parsed.functions->emptyOthers(variant.mangled);
+        const std::vector<uint32_t> kept = parsed.functions->keepOnly(variant.mangled, true);
         const std::vector<uint32_t> lined =
-            specialize(dropDeadFunctions(specialize(emptied, program.specialization, false)), {}, true);
+            specialize(dropDeadFunctions(specialize(kept, program.specialization, false)), {}, true);
         variant.lines = findLines(lined);
         variant.spirv = stripDebugInfo(lined);
         variant.isCompiled = true;
@@ -209,9 +196,7 @@ std::vector<uint32_t> MutantLibrary::Mutant::compile(const ProgramKey& program)
 {
     std::optional<Parsed>& parsed = parsed_[{program.entry, program.ownTracer}];
     if (!parsed) parsed = library_.parse(program, &change_);
-    // Only the passes ask for a variant's constants, so only a change there can call what the variant did not call.
-    const bool isLibrary = change_.name.starts_with("crossray/");
-    return library_.finish(*parsed, program, isLibrary ? &library_.variantOf(program).mangled : nullptr);
+    return library_.finish(*parsed, program);
 }
 
 std::string makeProgramKey(const std::vector<uint32_t>& spirv)

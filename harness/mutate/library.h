@@ -86,8 +86,7 @@ class MutantLibrary {
     const Parsed& parsedOf(const ProgramKey& program);
     Variant& variantOf(const ProgramKey& program);
     Variant& compiledOf(const ProgramKey& program);
-    std::vector<uint32_t> finish(const Parsed& parsed, const ProgramKey& program,
-                                 const std::set<std::string>* mangled) const;
+    std::vector<uint32_t> finish(const Parsed& parsed, const ProgramKey& program) const;
 
     std::filesystem::path root_;
     std::map<std::string, SourceFile> files_;

@@ -175,24 +175,49 @@ std::set<std::string> SpirvReach::find(const std::map<std::string, double>& spec
     return found;
 }
 
-std::vector<uint32_t> SpirvReach::emptyOthers(const std::set<std::string>& kept) const
+bool SpirvReach::isAmong(const std::set<std::string>& names, const SpirvFunction& function) const
 {
-    SpirvModule module = module_;
+    const auto name = names_.find(function.head.front().operand(1));
+    return name == names_.end() || names.contains(name->second);
+}
+
+std::vector<uint32_t> SpirvReach::keepOnly(const std::set<std::string>& kept, bool withLines) const
+{
+    SpirvModule module;
+    module.header = module_.header;
     // The optimiser looks up what a name is of; those of what goes would lead nowhere.
     std::set<uint32_t> settable;
-    for (const SpirvInstruction& instruction : module.globals) {
+    for (const SpirvInstruction& instruction : module_.globals) {
         if (instruction.op() == spv::OpSpecConstant) settable.insert(instruction.operand(1));
     }
-    std::erase_if(module.globals, [&](const SpirvInstruction& instruction) {
-        return instruction.op() == spv::OpName && !settable.contains(instruction.operand(0));
-    });
-    for (SpirvFunction& function : module.functions) {
-        const auto name = names_.find(function.head.front().operand(1));
-        if (name == names_.end() || kept.contains(name->second)) continue;
-        SpirvBlock block;
-        block.label = module.makeId();
-        block.body.push_back(makeInstruction(spv::OpUnreachable, {}));
-        function.blocks = {std::move(block)};
+    for (const SpirvInstruction& instruction : module_.globals) { // names stand before what they are of
+        const bool isDropped = instruction.op() == spv::OpName ? !settable.contains(instruction.operand(0))
+                                                               : instruction.op() == spv::OpMemberName;
+        if (!isDropped) module.globals.push_back(instruction);
+    }
+    std::set<uint32_t> called;
+    for (const SpirvFunction& function : module_.functions) {
+        if (!isAmong(kept, function)) continue;
+        for (const SpirvBlock& block : function.blocks) {
+            for (const SpirvInstruction& instruction : block.body) {
+                if (instruction.op() == spv::OpFunctionCall) called.insert(instruction.operand(2));
+            }
+        }
+    }
+    for (const SpirvFunction& function : module_.functions) {
+        if (isAmong(kept, function)) {
+            module.functions.push_back(function);
+            if (withLines) continue;
+            for (SpirvBlock& block : module.functions.back().blocks)
+                std::erase_if(block.body, [](const SpirvInstruction& instruction) {
+                    return instruction.op() == spv::OpLine || instruction.op() == spv::OpNoLine;
+                });
+        } else if (called.contains(function.head.front().operand(1))) {
+            SpirvBlock block;
+            block.label = module.makeId();
+            block.body.push_back(makeInstruction(spv::OpUnreachable, {}));
+            module.functions.push_back({function.head, {std::move(block)}});
+        }
     }
     return writeSpirvModule(module);
 }

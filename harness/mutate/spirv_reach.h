@@ -19,11 +19,14 @@ class SpirvReach {
     // Functions by their names in SPIR-V ("saturate(f1;") that the first entry point reaches with these specialization
     // constants: branches that whole numbers and bools decide are followed on their one side. Never too few.
     std::set<std::string> find(const std::map<std::string, double>& specialization) const;
-    // The module with the bodies of all other functions emptied, which are only there to be dropped, and without names
-    // but those of specialization constants.
-    std::vector<uint32_t> emptyOthers(const std::set<std::string>& kept) const;
+    // The module with these functions alone: what they call beside each other keeps an empty body, which is only there
+    // to be dropped with the branch that calls it. Of the names those of specialization constants stay, and the lines
+    // if asked.
+    std::vector<uint32_t> keepOnly(const std::set<std::string>& kept, bool withLines) const;
 
   private:
+    bool isAmong(const std::set<std::string>& names, const SpirvFunction& function) const;
+
     using Values = std::map<uint32_t, int64_t>;
     Values evaluateConstants(const std::map<std::string, double>& specialization) const;
     // Ids of the functions that one calls.
