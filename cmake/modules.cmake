@@ -55,8 +55,10 @@ crossray_module(mutate USES run PACKAGES nlohmann_json::nlohmann_json)
 crossray_module(cli USES bench inspect inspector report sweep mutate PACKAGES CLI11::CLI11 PNG::PNG)
 # CLI11 is a header of templates that the optimiser spends minutes on, for a command line that is parsed once.
 set_source_files_properties(harness/cli/command_line.cpp harness/cli/command_line_bench.cpp
-                            harness/cli/command_line_mutate.cpp PROPERTIES COMPILE_OPTIONS "-O0")
+                            harness/cli/command_line_mutate.cpp PROPERTIES COMPILE_OPTIONS "-O0"
+                            SKIP_PRECOMPILE_HEADERS ON)
 
 # The GLSL library in float: 0.5 is a float there, as in GLSL.
 file(GLOB float_shader_units CONFIGURE_DEPENDS harness/backend/cpu/*32.cpp harness/bench/*32.cpp harness/inspect/*32.cpp)
-set_source_files_properties(${float_shader_units} PROPERTIES COMPILE_OPTIONS -fsingle-precision-constant)
+set_source_files_properties(${float_shader_units} PROPERTIES COMPILE_OPTIONS -fsingle-precision-constant
+                            SKIP_PRECOMPILE_HEADERS ON)

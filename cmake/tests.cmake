@@ -4,12 +4,15 @@ find_package(rapidcheck REQUIRED)
 include(GoogleTest)
 
 function(crossray_test_program name)
-  cmake_parse_arguments(arg "" "PREFIX" "SOURCES;USES" ${ARGN})
+  cmake_parse_arguments(arg "OWN_HEADERS" "PREFIX" "SOURCES;USES" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE ${arg_USES} GTest::gtest GTest::gtest_main rapidcheck)
   # Paths relative to the build folder, in which the tests run: so a compiler cache serves every checkout.
   file(RELATIVE_PATH source_dir ${CMAKE_BINARY_DIR} ${CMAKE_SOURCE_DIR})
   target_compile_definitions(${name} PRIVATE CROSSRAY_SOURCE_DIR="${source_dir}" CROSSRAY_BINARY_DIR=".")
+  if(NOT arg_OWN_HEADERS)
+    crossray_precompile(${name} test_base <gtest/gtest.h>)
+  endif()
   target_compile_options(${name} PRIVATE -O1) # the tests themselves need no speed; what they test has its own flags
   gtest_discover_tests(${name} TEST_PREFIX "${arg_PREFIX}" WORKING_DIRECTORY ${CMAKE_BINARY_DIR} DISCOVERY_TIMEOUT 60
                        PROPERTIES TIMEOUT 900)
@@ -68,7 +71,7 @@ endif()
 # The shader library as C++: the same tests once in float and once in double, and the same .glsl files that ship.
 file(GLOB shader_test_sources CONFIGURE_DEPENDS tests/shader/*_test.cpp)
 foreach(precision 32 64)
-  crossray_test_program(test_shader${precision} SOURCES ${shader_test_sources} USES crossray_base PREFIX cpu${precision}.)
+  crossray_test_program(test_shader${precision} SOURCES ${shader_test_sources} USES crossray_base PREFIX cpu${precision}. OWN_HEADERS)
   target_compile_definitions(test_shader${precision} PRIVATE CROSSRAY_GLSL_PRECISION=${precision})
   # GLM with swizzles takes ten seconds to parse. The option lets compiler caches see through precompiled headers.
   target_precompile_headers(test_shader${precision} PRIVATE ${CMAKE_SOURCE_DIR}/tests/shader/shader_test.h
@@ -79,7 +82,7 @@ target_compile_options(test_shader32 PRIVATE -fsingle-precision-constant)
 # How good its tracer is, on the harness's random rooms.
 if(TARGET crossray_scene)
   crossray_test_program(test_yardstick SOURCES tests/shader/yardstick/hiz.cpp tests/shader/yardstick/yardstick_test.cpp
-                        USES crossray_scene)
+                        USES crossray_scene OWN_HEADERS)
   set_source_files_properties(tests/shader/yardstick/hiz.cpp PROPERTIES COMPILE_OPTIONS -fsingle-precision-constant)
 endif()
 # And as GLSL.
