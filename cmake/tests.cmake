@@ -14,6 +14,10 @@ function(crossray_test_program name)
     crossray_precompile(${name} test_base <gtest/gtest.h>)
   endif()
   target_compile_options(${name} PRIVATE -O1) # the tests themselves need no speed; what they test has its own flags
+  if(CROSSRAY_PRECOMPILE AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+    # Out of a precompiled header GCC 12 says this of std::string, which is silent where the header is read as a system's.
+    target_compile_options(${name} PRIVATE -Wno-array-bounds)
+  endif()
   gtest_discover_tests(${name} TEST_PREFIX "${arg_PREFIX}" WORKING_DIRECTORY ${CMAKE_BINARY_DIR} DISCOVERY_TIMEOUT 60
                        PROPERTIES TIMEOUT 900)
 endfunction()
@@ -128,6 +132,10 @@ add_test(NAME consumer.theDebianPackageHoldsAToolThatRuns
          COMMAND ${CMAKE_COMMAND} -D BUILD=${CMAKE_BINARY_DIR} -D CPACK=${CMAKE_CPACK_COMMAND} -D SCRATCH=${CMAKE_BINARY_DIR}/deb
                  -D VERSION=${PROJECT_VERSION} -P ${CMAKE_SOURCE_DIR}/tests/consumer/check_deb.cmake)
 set_tests_properties(consumer.theDebianPackageHoldsAToolThatRuns PROPERTIES TIMEOUT 300)
+
+# The tables of cases/library are what their scripts make.
+add_test(NAME mutation.theTablesAreMadeByTheirScripts COMMAND ${CMAKE_SOURCE_DIR}/tests/mutation/tables_test.sh ${CMAKE_SOURCE_DIR})
+set_tests_properties(mutation.theTablesAreMadeByTheirScripts PROPERTIES TIMEOUT 120 SKIP_RETURN_CODE 77)
 
 # A sample of the bugs that the verb mutate plants in what cases/library asks: a minute or two.
 if(TARGET crossray)
