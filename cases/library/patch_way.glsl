@@ -291,13 +291,13 @@ void checkEnter(int tableRow)
 OwnHit traceOwn(OwnRay ray)
 {
     int row = ray.pixel.y;
-    if (row >= 0 && row <= 301) checkEntry(row);
-    if (row >= 302 && row <= 337) checkBefore(row);
-    if (row >= 338 && row <= 481) checkExit(row);
-    if (row >= 482 && row <= 646) checkFiner(row);
-    if (row >= 647 && row <= 934) checkCoarser(row);
-    if (row >= 935 && row <= 1057) checkDescend(row);
-    if (row >= 1058 && row <= 1175) checkFree(row);
-    if (row >= 1176 && row <= 1333) checkEnter(row);
+    if (row >= 0 && row <= 350) checkEntry(row);
+    if (row >= 351 && row <= 392) checkBefore(row);
+    if (row >= 393 && row <= 560) checkExit(row);
+    if (row >= 561 && row <= 725) checkFiner(row);
+    if (row >= 726 && row <= 1013) checkCoarser(row);
+    if (row >= 1014 && row <= 1156) checkDescend(row);
+    if (row >= 1157 && row <= 1274) checkFree(row);
+    if (row >= 1275 && row <= 1456) checkEnter(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

@@ -142,7 +142,7 @@ def entered(o, start, delta, lifted, startPixel, pixel, level, plane, error=0.0)
 # --------------------------------------------------------------------------------------------------------------- rows
 
 kRayHead = "PatchWalk w = tableWalk(start, delta, vec4(0.0), first, false, 0.0);\n"
-kRays = [[[8.5, 8.25], d] for d in ([16.0, 8.0], [-16.0, 8.0], [16.0, -8.0], [-16.0, -8.0], [4.0, 32.0], [-0.5, -32.0])]
+kRays = [[[8.5, 8.25], d] for d in ([16.0, 8.0], [-16.0, 8.0], [16.0, -8.0], [-16.0, -8.0], [4.0, 32.0], [0.5, -32.0], [-32.0, 0.5])]
 
 
 def entryRows():
@@ -217,7 +217,7 @@ def wayFunctions():
         Function("Finer", "front:2 s:2 delta:2 slack:1 level:i", ["float(chooseFinerLevel(w, tableCell(vec4(0.0, 0.0, 8.0, 8.0), vec4(0.25, 0.0, 0.0, slack), s, front, false), level))"],
                  finerRows(), finer, "PatchWalk w = tableWalk(vec2(0.5), delta, vec4(0.0), vec2(0.0), false, 0.0);"),
         Function("Coarser", "byX:b next:2 delta:2 level:i high:i", ["float(chooseCoarserLevel(tableCell(vec4(0.0), vec4(0.0), vec2(0.0), vec2(0.0), byX), whole(next), delta, level, high))"],
-                 [[byX, p, d, level, high] for byX in (0, 1) for p in ([7, 8], [12, 15], [16, 6], [31, 32], [9, 11], [10, 13]) for d in ([4, 3], [-4, 3], [4, -3]) for level in (0, 1, 2, 3) for high in (6, 3)], coarser),
+                 [[byX, p, d, level, high] for byX in (0, 1) for p in ([7, 8], [12, 15], [16, 6], [31, 32], [9, 11], [10, 13]) for d in ([0.5, 3], [-4, 0.5], [4, -3]) for level in (0, 1, 2, 3) for high in (6, 3)], coarser),
         Function("Descend", "start:2 delta:2 rect:4 surface:4 s:2 front:2 pixel:2 level:i free:1",
                  ["float(n.pixel.x)", "float(n.pixel.y)", "float(n.level)", "number(n.inFront)", "float(n.hidden.pixel.x)", "float(n.hidden.pixel.y)", "n.hidden.s", "n.clearance"], descendRows(), descend,
                  "vec2 first = pixel;\n" + kRayHead + "PatchState from = PatchState(whole(pixel), level, false, HiddenStart(ivec2(5, 6), 0.375), 0.875);\n"
