@@ -400,12 +400,12 @@ OwnHit traceOwn(OwnRay ray)
     int row = ray.pixel.y;
     if (row >= 0 && row <= 143) checkSettle(row);
     if (row >= 144 && row <= 305) checkClearance(row);
-    if (row >= 306 && row <= 660) checkGoesOn(row);
-    if (row >= 661 && row <= 702) checkPixelHit(row);
-    if (row >= 703 && row <= 1662) checkDecision(row);
-    if (row >= 1663 && row <= 1681) checkConfidence(row);
-    if (row >= 1682 && row <= 1705) checkStep(row);
-    if (row >= 1706 && row <= 1737) checkEnd(row);
-    if (row >= 1738 && row <= 1761) checkHit(row);
+    if (row >= 306 && row <= 662) checkGoesOn(row);
+    if (row >= 663 && row <= 710) checkPixelHit(row);
+    if (row >= 711 && row <= 1670) checkDecision(row);
+    if (row >= 1671 && row <= 1689) checkConfidence(row);
+    if (row >= 1690 && row <= 1713) checkStep(row);
+    if (row >= 1714 && row <= 1745) checkEnd(row);
+    if (row >= 1746 && row <= 1769) checkHit(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

@@ -178,6 +178,8 @@ def goesOnRows():
                     rows += [row(near, near - e + d, -0.25) for d in (0, -1 / 1024, 1 / 1024)] + [row(near, -1 / 1024, e + bend / 2 + d) for d in (0, -1 / 1024, 1 / 1024, -bend / 4, bend / 4)]
                     rows += [row(near, -0.25, -0.25), row(-0.25, -1 / 64, 0.25)]
     plain = [[8.5, 8.5], [16.0, 8.0], [0.25, -0.5], [8, 8], 0.0, [9, 8], 0.03125, 1, [0.25, 0, 0, 0], -1 / 1024, [0.25, 0, 0, 0]]
+    # A ray along the eye's own, which moves by 1e-20 pixels, from the border into the next pixel.
+    rows += [[[9.0, 8.5], [-1e-20, -1e-20], [0.25, -0.125], [9, 8], 0.0, [8, 8], 0.0, 1, [0.25, 1 / 64, 0, 0], -1 / 1024, [0.25 + rise, -1 / 64, 0, 0]] for rise in (-0.00390625, -0.0234375)]
     rows += [plain, [*plain[:3], [9, 8], *plain[4:]], [*plain[:-1], [0.25, 0, 0, -1.0]]]  # it goes on; the start's own pixel; sky before
     return rows
 
@@ -198,7 +200,7 @@ def decisionRows():
 
 def shareRows():
     rows = []
-    for affine in ([0.5, -1.0], [0.25, -1.0], [0.375, -0.5], [0.5, -0.25], [0.3125, -0.25], [0.25, 0.0], [0.125, 1.0]):
+    for affine in ([0.5, 0.0], [0.5, -1.0], [0.25, -1.0], [0.375, -0.5], [0.5, -0.25], [0.3125, -0.25], [0.25, 0.0], [0.125, 1.0]):
         for rect, surface in (([8, 8, 9, 9], [0.25, 0.0, 0.0, 0.0]), ([8, 8, 16, 16], [0.25, 0.0078125, -0.00390625, 0.0])):
             rows += [[[8.5, 8.25], [16.0, 8.0], affine, rect, surface, s] for s in ([0.0, 0.03125], [0.125, 0.375], [0.25, 0.25])]
     return rows
