@@ -402,10 +402,10 @@ OwnHit traceOwn(OwnRay ray)
     if (row >= 144 && row <= 305) checkClearance(row);
     if (row >= 306 && row <= 662) checkGoesOn(row);
     if (row >= 663 && row <= 710) checkPixelHit(row);
-    if (row >= 711 && row <= 1670) checkDecision(row);
-    if (row >= 1671 && row <= 1689) checkConfidence(row);
-    if (row >= 1690 && row <= 1713) checkStep(row);
-    if (row >= 1714 && row <= 1745) checkEnd(row);
-    if (row >= 1746 && row <= 1769) checkHit(row);
+    if (row >= 711 && row <= 1990) checkDecision(row);
+    if (row >= 1991 && row <= 2009) checkConfidence(row);
+    if (row >= 2010 && row <= 2033) checkStep(row);
+    if (row >= 2034 && row <= 2065) checkEnd(row);
+    if (row >= 2066 && row <= 2089) checkHit(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

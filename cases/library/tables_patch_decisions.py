@@ -192,7 +192,7 @@ def decisionRows():
             for inFront in (0, 1):
                 for caution in (0.0, 0.5):
                     for fronts in ([1 / 1024, 1 / 512], [-1 / 1024, -1 / 512], [1 / 512, -1 / 1024], [-1 / 512, 1 / 1024], [0.0, 0.0]):
-                        for surface, plane in (([0.25, 0, 0, 0], [0.25, 0, 0]), ([0.25, 0, 0, 0], [0.125, 0, 0]), ([0.0, 0, 0, -1.0], [0.25, 0, 0])):
+                        for surface, plane in (([0.25, 0, 0, 0], [0.25, 0, 0]), ([0.25, 0, 0, 0], [0.5, 0, 0]), ([0.25, 0, 0, 0], [0.125, 0, 0]), ([0.0, 0, 0, -1.0], [0.25, 0, 0])):
                             rows += [[start, delta, [a, -0.0625, 7, 8], first, stands, 0.0, pixel, inFront, caution, known, surface, fronts, s, plane]
                                      for a in (0.255859375, 0.2646484375) for known in (1e30, 0.25)]
     return rows
