@@ -403,9 +403,9 @@ OwnHit traceOwn(OwnRay ray)
     if (row >= 306 && row <= 662) checkGoesOn(row);
     if (row >= 663 && row <= 710) checkPixelHit(row);
     if (row >= 711 && row <= 1990) checkDecision(row);
-    if (row >= 1991 && row <= 2009) checkConfidence(row);
-    if (row >= 2010 && row <= 2033) checkStep(row);
-    if (row >= 2034 && row <= 2065) checkEnd(row);
-    if (row >= 2066 && row <= 2089) checkHit(row);
+    if (row >= 1991 && row <= 2011) checkConfidence(row);
+    if (row >= 2012 && row <= 2035) checkStep(row);
+    if (row >= 2036 && row <= 2067) checkEnd(row);
+    if (row >= 2068 && row <= 2091) checkHit(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

@@ -294,10 +294,10 @@ OwnHit traceOwn(OwnRay ray)
     if (row >= 0 && row <= 350) checkEntry(row);
     if (row >= 351 && row <= 392) checkBefore(row);
     if (row >= 393 && row <= 560) checkExit(row);
-    if (row >= 561 && row <= 725) checkFiner(row);
-    if (row >= 726 && row <= 1013) checkCoarser(row);
-    if (row >= 1014 && row <= 1156) checkDescend(row);
-    if (row >= 1157 && row <= 1274) checkFree(row);
-    if (row >= 1275 && row <= 1456) checkEnter(row);
+    if (row >= 561 && row <= 726) checkFiner(row);
+    if (row >= 727 && row <= 1014) checkCoarser(row);
+    if (row >= 1015 && row <= 1157) checkDescend(row);
+    if (row >= 1158 && row <= 1275) checkFree(row);
+    if (row >= 1276 && row <= 1457) checkEnter(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

@@ -1,7 +1,7 @@
 """The table of what project/patch_tracer.glsl decides in a pixel, function by function, the ray and the surfaces given by the row; see tables.py."""
 import math
 import random
-from tables import Function, clamp01, copyOf, dot, length, sub, write
+from tables import Function, clamp01, copyOf, dot, length, single, sub, write
 from tables_core import kSlope, kViews
 from tables_linear import Undecided
 from tables_patch_way import at, before, entry, kHooks, middle, planeAt
@@ -71,7 +71,7 @@ def share(start, delta, affine, rect, surface, s):
 
 
 def confidence(c):
-    if c > 0.5e30:
+    if c > 0.5 * single(1e30):
         return 0.998
     log = math.log(max(c, 1e-4))
     return min(1 / (1 + math.exp(-min(2.2 + 1.3 * log, 3.25 + 2.5 * log))), 0.995)
@@ -190,7 +190,7 @@ def decisionRows():
     for pixel, s in (([8, 8], [0.0, 0.03125]), ([12, 10], [0.21875, 0.28125])):
         for stands in (0, 1):
             for inFront in (0, 1):
-                for caution in (0.0, 0.5):
+                for caution in (0.0, 0.25):  # of which a clearance of 0.25 is enough
                     for fronts in ([1 / 1024, 1 / 512], [-1 / 1024, -1 / 512], [1 / 512, -1 / 1024], [-1 / 512, 1 / 1024], [0.0, 0.0]):
                         for surface, plane in (([0.25, 0, 0, 0], [0.25, 0, 0]), ([0.25, 0, 0, 0], [0.5, 0, 0]), ([0.25, 0, 0, 0], [0.125, 0, 0]), ([0.0, 0, 0, -1.0], [0.25, 0, 0])):
                             rows += [[start, delta, [a, -0.0625, 7, 8], first, stands, 0.0, pixel, inFront, caution, known, surface, fronts, s, plane]
@@ -237,7 +237,7 @@ def decisionFunctions():
              for o in (0, 1) for rect in ([8, 8, 16, 12], [2, 3, 4, 4]) for slack in (0.015625, -1.0, 0.0) for front in (0.03125, -0.03125)]
     ends = [[o, *way, [-4, -2] if o else [0.25, -0.125], s, reason, status] for o in (0, 1) for s in (0.0, 0.25) for reason, status in ((7, 0), (2, 0), (3, 0), (1, 0), (4, 0), (9, 9), (7, 7), (4, 4))]
     hits = [[o, *way, rect, [-4 if o else 0.25, 0.0078125, -0.00390625, 0], s, known] for o in (0, 1) for rect in ([8, 8, 16, 12], [10, 9, 11, 10]) for s in (0.125, 0.25, 0.0) for known in (1e30, 0.5)]
-    knows = [1e30, 8e29, 4e29, 0, -1, 1e-5, 1e-4, 2e-4, 0.01, 0.1, 0.2, 0.4, 0.4167, 0.6, 1, 2, 3, 1e3, 1e6]
+    knows = [1e30, 8e29, 5.5e29, 0.5 * single(1e30), 4e29, 0, -1, 1e-5, 1e-4, 2e-4, 0.01, 0.1, 0.2, 0.4, 0.4167, 0.6, 1, 2, 3, 1e3, 1e6]
     return [
         Function("Settle", "start:2 delta:2 affine:2 first:2 surface:4 error:1",
                  ["w.ray.startAffineDepth", "w.ray.deltaAffineDepth", "w.lifted.startAffineDepth * 16384.0", "w.lifted.deltaAffineDepth * 16384.0", "number(w.stands)", "w.depthError", "float(w.startPixel.x)", "float(w.startPixel.y)"],

@@ -167,6 +167,7 @@ def finerRows():
     rows = []
     for slack in (0.375, 0.625, 0.875, 1.125, 3, 20, 300, -1, 0):
         rows += [[front, [0.25, 0.5], delta, slack, level] for front in ([0.5, 0.25], [-0.25, 0.5], [0.25, 0.3125]) for delta in ([4, 1], [-2, -8]) for level in (1, 3, 6)]
+    rows += [[[0.0, 1e-20], [0.25, 0.5], [1e-20, -1e-20], 3.0, 6]]  # a ray of no length on the screen
     return rows + [[[0.25, 0.25], [0.25, 0.5], [4, 1], 0.5, 5], [[0.5, 0.25], [0.25, 0.25], [4, 1], 0.5, 5], [[0.25, 0.25], [0.5, 0.5], [4, 1], 0.0, 5]]  # along the plane; a cell's corner
 
 
