@@ -293,11 +293,11 @@ OwnHit traceOwn(OwnRay ray)
     int row = ray.pixel.y;
     if (row >= 0 && row <= 350) checkEntry(row);
     if (row >= 351 && row <= 392) checkBefore(row);
-    if (row >= 393 && row <= 560) checkExit(row);
-    if (row >= 561 && row <= 726) checkFiner(row);
-    if (row >= 727 && row <= 1014) checkCoarser(row);
-    if (row >= 1015 && row <= 1157) checkDescend(row);
-    if (row >= 1158 && row <= 1275) checkFree(row);
-    if (row >= 1276 && row <= 1457) checkEnter(row);
+    if (row >= 393 && row <= 602) checkExit(row);
+    if (row >= 603 && row <= 768) checkFiner(row);
+    if (row >= 769 && row <= 1056) checkCoarser(row);
+    if (row >= 1057 && row <= 1227) checkDescend(row);
+    if (row >= 1228 && row <= 1345) checkFree(row);
+    if (row >= 1346 && row <= 1527) checkEnter(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

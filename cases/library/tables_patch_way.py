@@ -160,6 +160,7 @@ def exitRows():
         for rect in ([8, 8, 9, 9], [8, 8, 16, 16], [0, 8, 32, 12]):
             for byX in (0, 1):
                 rows += [[start, delta, rect, leave, byX, [8, 8]] for leave in (0.03125, 0.09375, 0.21875, 0.3)]  # 0.09375: borders of x and y at once
+                rows.append([[start[0] + 8, start[1]], delta, [rect[0] + 8, rect[1], rect[2] + 8, rect[3]], 0.09375, byX, [16, 8]])
     return rows
 
 
@@ -177,6 +178,7 @@ def descendRows():
         for rect in ([8, 8, 16, 16], [0, 8, 16, 12], [8, 8, 9, 9], [0, 0, 9, 9]):
             surface = [0.25, 0, 0, 0.125]
             rows += [[start, delta, rect, surface, [0.015625, 0.25], [0.5, 0.125], [8, 8], 4, free] for free in (0.015625, 0.03125, 0.09375, 0.21875, 0.3)]
+            rows.append([[start[0] + 8, start[1]], delta, [rect[0] + 8, rect[1], rect[2] + 8, rect[3]], surface, [0.015625, 0.25], [0.5, 0.125], [16, 8], 4, 0.09375])
     # At the corner of a pixel a ray that is undecided at once stays where it is.
     return rows + [[[0.5, 0.5], [4.0, 4.0], [0, 0, 8, 8], [0.25, 0, 0, 0.125], [0.125, 0.5], [0.5, 0.125], [1, 0], 3, free] for free in (0.125, 0.0625, 0.25)]
 
