@@ -208,8 +208,10 @@ if __name__ == "__main__":
     import tables_hooks
     import tables_linear
     import tables_patch
+    import tables_patch_decisions
+    import tables_patch_way
     import tables_patches
     import tables_probe
     import tables_project
-    for part in (tables_core, tables_probe, tables_project, tables_hooks, tables_linear, tables_patch, tables_hiz, tables_patches):
+    for part in (tables_core, tables_probe, tables_project, tables_hooks, tables_linear, tables_patch, tables_hiz, tables_patches, tables_patch_way, tables_patch_decisions):
         part.make()

@@ -18,7 +18,7 @@ vec3 wallPlane() // affine depth at the corner of the image, and its change a pi
 ivec4 tableBox() { return tableKind == 3 ? ivec4(28, 12, 36, 34) : tableKind == 4 ? ivec4(20, 8, 52, 40) : ivec4(0); } // begin, end
 float boxAffine() { return tableKind == 4 ? 0.28125 : 0.3125; }
 ivec2 surfacePyramidSize(int level) { return max(ivec2(64 >> level, 48 >> level), ivec2(1)); }
-int surfacePyramidLevelCount() { return 7; }
+int surfacePyramidLevelCount() { return tableKind == 6 ? 0 : 7; }
 
 vec4 fetchSurfaceCell(ivec2 cell, int level)
 {
@@ -32,7 +32,8 @@ vec4 fetchSurfaceCell(ivec2 cell, int level)
     vec3 wall = wallPlane();
     vec4 plane = vec4(wall.x + dot(wall.yz, center), wall.yz, level == 0 ? 0.0 : 0.0009765625 * float(level));
     vec4 front = level == 0 ? vec4(boxAffine(), 0.0, 0.0, 0.0) : vec4(plane.xyz, 0.25);
-    return isHole ? vec4(0.0, 0.0, 0.0, -1.0) : touches ? front : plane;
+    vec4 edge = vec4(cell.x < 64 && cell.y < 48 ? 0.25 : 0.5, 0.0, 0.0, 0.0); // a wall that faces the eye, and no pixel beyond the image
+    return tableKind == 7 ? edge : isHole ? vec4(0.0, 0.0, 0.0, -1.0) : touches ? front : plane;
 }
 
 float recorded = 0.0; // a sum over the steps that knows their order
@@ -42,6 +43,17 @@ void recordPatchStep(PatchStep step)
     float share = 1.0 / float(step.iteration + 2);
     recorded += share * (step.positionSS.x + 2.0 * step.positionSS.y + 3.0 * min(step.rayLinearDepth, 40.0) + 5.0 * min(step.nearLinearDepth, 40.0) + 7.0 * min(step.farLinearDepth, 40.0));
     recordedCells += share * float(step.level + 3 * step.cell.x + 5 * step.cell.y + 7 * (step.rect.end.x - step.rect.begin.x) + 11 * (step.rect.end.y - step.rect.begin.y) + 13 * step.intersectionKind);
+}
+"""
+
+kStarts = """
+// Looks along -z from the origin, 90 degrees wide and half as high: the border of its image is met exactly.
+View startView(bool edge)
+{
+    View view = tableView(false, true);
+    mat4 clip = mat4(vec4(1.0, 0.0, 0.0, 0.0), vec4(0.0, 2.0, 0.0, 0.0), vec4(0.0, 0.0, 0.0, -1.0), vec4(0.0, 0.0, 0.5, 0.0));
+    if (edge) view = View(mat4(1.0), mat4(1.0), clip, vec2(64.0, 48.0), vec2(1.0, 0.5), 0.0, 0.5, 0.5, 64.0, false, true);
+    return view;
 }
 """
 
@@ -71,7 +83,7 @@ def march(kind, px, py, lift, d, maxLevel, most, caution, error):
     _, _, dx, dy, _, a0, da, endReason, status = flat(screenRay(False, origin, sub(fromView(d), kEye)))
     assert status == 0
     start, delta = [px + 0.5, py + 0.5], [dx, dy]
-    maxLevel, caution, error = min(max(maxLevel, 0), 6), caution if caution > 0 else 0.0, error if error > 0 else 0.0
+    maxLevel, caution, error = min(max(maxLevel, 0), 0 if kind == 6 else 6), caution if caution > 0 else 0.0, error if error > 0 else 0.0
     depthOf = lambda a: 1 / max(a, 1e-30)
     rawStart, rawDelta = a0, da
     _, onPlane, _, slack = surface(kind, (px, py), 0)
@@ -269,28 +281,54 @@ def march(kind, px, py, lift, d, maxLevel, most, caution, error):
     return ended(entryOf(pixel)[0], 1)
 
 
+def edges():
+    """From the very border of the image, on the wall of its last pixels, 4 m away, into the wall."""
+    rows = []
+    for at in (0.2578125, -0.3671875):
+        rows += [[1, [4.0, 2 * at, -4.0], [-1, 0, -0.5]], [1, [4 * at, -2.0, -4.0], [0, 1, -0.5]]]
+    return rows
+
+
+def start(isEdge, p, d):
+    if not isEdge:
+        answer = noStart(p, d)
+        return answer[:4] + [answer[4] if answer[1] == 2 else 0, 0, 0, 0, 0]
+    # It stands on its own pixel's wall and hits that of the pixel before, whose border is where (4 - t) / (4 + t / 2) is a pixel less than the image's half.
+    axis = 0 if d[0] != 0 else 1
+    half = (32, 24)[axis]
+    x = 1 - 1 / half
+    t = (4 - 4 * x) / (1 + x / 2) if axis == 0 else (2 - 2 * x) / (1 + x / 4)
+    z = 4 + t / 2
+    place = [63, 24 * (1 - 2 * p[1] / z)] if axis == 0 else [32 * (1 + p[0] / z), 47]
+    return [1, 0, *place, 4, 2, 0, 2, 0.998]
+
+
 def make():
     chance = random.Random(23)
-    rows = []
-    for _ in range(3000):
-        kind = chance.randrange(6)
-        row = [kind, chance.randrange(2, 62), chance.randrange(2, 46), chance.choice((0, 0, -0.05, -0.3, 0.04)), unit([chance.uniform(-1, 1), chance.uniform(-1, 1), chance.uniform(-1, 1)]),
-               chance.choice((0, 1, 3, 6, 9)), chance.choice((200, 200, 200, 5)), chance.choice((0, 0.05, 0.4, 1.5, -1)), chance.choice((0, 0, 0, 0.001953125, -1))]
+    def draw(kinds, highs):
+        row = [chance.choice(kinds), chance.randrange(2, 62), chance.randrange(2, 46), chance.choice((0, 0, -0.05, -0.3, 0.04)), unit([chance.uniform(-1, 1), chance.uniform(-1, 1), chance.uniform(-1, 1)]),
+               chance.choice(highs), chance.choice((200, 200, 200, 5)), chance.choice((0, 0.05, 0.4, 1.5, -1)), chance.choice((0, 0, 0, 0.001953125, -1))]
         numbers = [single(x) for x in flat(row)]
         try:
             march(*[int(x) for x in numbers[:3]], numbers[3], numbers[4:7], int(numbers[7]), int(numbers[8]), numbers[9], numbers[10])
         except (Undecided, AssertionError, ZeroDivisionError):
-            continue
-        rows.append(row)
+            return None
+        return row
+    rows = [draw(range(6), (0, 1, 3, 6, 9)) for _ in range(3000)]
+    more = [draw((6,), (0, 3)) for _ in range(40)] + [draw((0, 3), (-2,)) for _ in range(40)]  # a pyramid of no levels, and none that may be used
+    rows, more = [row for row in rows if row], [row for row in more if row]
+    rows = rows[:780] + more[::2][:20] + [[0, 20, 20, 0, unit([0.3, 0.2, -1]), 6, most, 0.4, 0] for most in (0, -1, 1)]
     write("patches", "The march over planes descends, hits, refuses and passes as its definition says, over surfaces that are formulas.", [
         Function("March", "k:i x:i y:i lift:1 d:3 high:i most:i caution:1 error:1",
                  ["float(r.hitClass)", "float(r.reason)", "r.positionSS.x", "r.positionSS.y", "r.linearDepth", "float(r.iterations)", "float(r.maxUsedLevel)", "float(r.intersectionKind)", "r.confidence",
                   "recorded", "recordedCells"],
-                 rows[:800], march,
+                 rows, march,
                  "tableKind = k;\nView v = tableView(false, true);\nvec4 s = fetchSurfaceCell(ivec2(x, y), 0);\nfloat z = (s.w < 0.0 ? 8.0 : 1.0 / s.x) * (1.0 + lift);\n"
                  "vec3 p = positionWSFromSS(v, vec2(float(x) + 0.5, float(y) + 0.5), z);\nvec3 w = (v.worldFromView * vec4(d, 0.0)).xyz;\n"
                  "PatchTraceResult r = tracePatches(v, p, w, PatchTracerSettings(high, most, caution, error));", relative=4e-4, absolute=4e-3),
-        Function("NoStart", "p:3 d:3", ["float(r.hitClass)", "float(r.reason)", "r.positionSS.x", "r.positionSS.y", "r.linearDepth", "float(r.iterations)", "r.confidence"], noStarts(),
-                 lambda p, d: (lambda a: a[:4] + [a[4] if a[1] == 2 else 0, 0, 0])(noStart(p, d)),
-                 "PatchTraceResult r = tracePatches(tableView(false, true), p, d, PatchTracerSettings(4, 100, 0.4, 0.0));", relative=2e-5, absolute=1e-4),
     ], [], kViews + copyOf("crossray/project/patch_tracer.glsl") + kHooks)
+    result = ["float(r.hitClass)", "float(r.reason)", "r.positionSS.x", "r.positionSS.y", "r.linearDepth", "float(r.iterations)", "float(r.maxUsedLevel)", "float(r.intersectionKind)", "r.confidence"]
+    write("patch_starts", "The march over planes starts on the very border of the image, and answers why it cannot start.", [
+        Function("Start", "edge:b p:3 d:3", result, [[0, *row] for row in noStarts()] + edges(), start,
+                 "tableKind = edge ? 7 : 0;\nPatchTraceResult r = tracePatches(startView(edge), p, d, PatchTracerSettings(edge ? 0 : 4, 100, 0.4, 0.0));", relative=2e-5, absolute=1e-4),
+    ], [], kViews + copyOf("crossray/project/patch_tracer.glsl") + kHooks + kStarts)
