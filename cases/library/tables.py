@@ -205,11 +205,12 @@ def smooth(x):
 if __name__ == "__main__":
     import tables_core
     import tables_hiz
+    import tables_hizparts
     import tables_hooks
     import tables_linear
     import tables_patch
     import tables_patches
     import tables_probe
     import tables_project
-    for part in (tables_core, tables_probe, tables_project, tables_hooks, tables_linear, tables_patch, tables_hiz, tables_patches):
+    for part in (tables_core, tables_probe, tables_project, tables_hooks, tables_linear, tables_patch, tables_hiz, tables_hizparts, tables_patches):
         part.make()
