@@ -89,32 +89,34 @@ void checkPlane(int tableRow)
     vec4 q = vec4(d0.y, d0.z, d1.x, d1.y);
     int cx = int(d1.z);
     int cy = int(d2.x);
-    int level = int(d2.y);
-    float near = d2.z;
-    vec2 a = vec2(d3.x, d3.y);
-    vec2 d = vec2(d3.z, d4.x);
-    float pixel = d4.y;
-    float a0 = d4.z;
-    float da = d5.x;
-    bool front = d5.y > 0.5;
-    bool attached = d5.z > 0.5;
-    bool start = d6.x > 0.5;
-    float enter = d6.y;
-    float leave = d6.z;
-    float bias = d7.x;
+    int wide = int(d2.y);
+    int tall = int(d2.z);
+    int level = int(d3.x);
+    float near = d3.y;
+    vec2 a = vec2(d3.z, d4.x);
+    vec2 d = vec2(d4.y, d4.z);
+    float pixel = d5.x;
+    float a0 = d5.y;
+    float da = d5.z;
+    bool front = d6.x > 0.5;
+    bool attached = d6.y > 0.5;
+    bool start = d6.z > 0.5;
+    float enter = d7.x;
+    float leave = d7.y;
+    float bias = d7.z;
     tableOrtho = o;
     tablePlane = q;
     ScreenRay ray = ScreenRay(a, d, pixel, a0, da, 0, 0);
     HizState state = HizState(0.25, ivec2(0), level, front, attached, false, start);
     ivec2 begin = ivec2(cx << level, cy << level);
-    HizCell c = HizCell(ivec2(cx, cy), begin, begin + ivec2(1 << level), vec2(near, near), enter, leave, ivec2(0), false, false, 0.0, 0.0);
+    HizCell c = HizCell(ivec2(cx, cy), begin, begin + ivec2(wide, tall), vec2(near, near), enter, leave, ivec2(0), false, false, 0.0, 0.0);
     HizTest t = testHizPlane(tableFrame(), ray, state, c, bias);
-    check(1, float(t.kind), d7.y, 0.0001, 2e-05);
-    check(2, t.s, d7.z, 0.0001, 2e-05);
-    check(3, t.affineDepth, d8.x, 0.0001, 2e-05);
-    check(4, number(t.inFront), d8.y, 0.0001, 2e-05);
-    check(5, number(t.attached), d8.z, 0.0001, 2e-05);
-    check(6, number(t.isHidden), d9.x, 0.0001, 2e-05);
+    check(1, float(t.kind), d8.x, 0.0001, 2e-05);
+    check(2, t.s, d8.y, 0.0001, 2e-05);
+    check(3, t.affineDepth, d8.z, 0.0001, 2e-05);
+    check(4, number(t.inFront), d9.x, 0.0001, 2e-05);
+    check(5, number(t.attached), d9.y, 0.0001, 2e-05);
+    check(6, number(t.isHidden), d9.z, 0.0001, 2e-05);
 }
 
 void checkCell(int tableRow)
@@ -237,7 +239,7 @@ void checkCloser(int tableRow)
     tableOrtho = o;
     float pixel = 0.125;
     ScreenRay ray = ScreenRay(a, d, pixel, a0, da, 0, 0);
-    HizCell c = HizCell(ivec2(0), ivec2(0), ivec2(0), vec2(near), 0.0, 1.0, ivec2(0), false, false, 0.0, 0.0);
+    HizCell c = HizCell(ivec2(0), ivec2(0), ivec2(0), vec2(near, near + 4.0), 0.0, 1.0, ivec2(0), false, false, 0.0, 0.0);
     ivec2 p = computeHizCloserPixel(tableFrame(), ray, HizState(0.0, ivec2(px, py), 1, true, attached, false, false), c, s);
     check(301, float(p.x), d4.x, 1e-05, 0);
     check(302, float(p.y), d4.y, 1e-05, 0);
@@ -300,11 +302,11 @@ void checkSanitize(int tableRow)
 OwnHit traceOwn(OwnRay ray)
 {
     int row = ray.pixel.y;
-    if (row >= 0 && row <= 459) checkPlane(row);
-    if (row >= 460 && row <= 759) checkCell(row);
-    if (row >= 760 && row <= 959) checkEnter(row);
-    if (row >= 960 && row <= 1119) checkCloser(row);
-    if (row >= 1120 && row <= 1155) checkStep(row);
-    if (row >= 1156 && row <= 1191) checkSanitize(row);
+    if (row >= 0 && row <= 499) checkPlane(row);
+    if (row >= 500 && row <= 799) checkCell(row);
+    if (row >= 800 && row <= 999) checkEnter(row);
+    if (row >= 1000 && row <= 1135) checkCloser(row);
+    if (row >= 1136 && row <= 1171) checkStep(row);
+    if (row >= 1172 && row <= 1207) checkSanitize(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

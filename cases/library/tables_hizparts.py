@@ -34,11 +34,13 @@ kSky = single(1e30)
 kCell, kHit = 1, 2
 # How a row is judged: "margin" refuses what rounding may turn, "exact" what a float does not hold, "plain" nothing.
 mode = "plain"
+decisions = []  # of the last row: how each comparison went, and whether it was a tie
 
 
 def less(a, b, least=0.0):
     if mode == "margin" and abs(a - b) <= 1e-4 * max(abs(a), abs(b)) + least:
         raise Undecided
+    decisions.append((a < b, a == b))
     return a < b
 
 
@@ -79,7 +81,7 @@ def borderTime(a, d, border): return num((border - a) / d)
 def entry(a, d, begin, end): return min(max(max(borderTime(a[k], d[k], begin[k] if d[k] > 0 else end[k]) for k in range(2)), 0.0), 1.0)
 
 
-def testPlane(o, q, cell, level, near, a, d, pixelLength, a0, da, inFront, attached, isStart, enter, leave, bias):
+def testPlane(o, q, cell, wide, tall, level, near, a, d, pixelLength, a0, da, inFront, attached, isStart, enter, leave, bias):
     center, middle, g = fit(o, q, cell, level, near, d if isStart else [0, 0])
     ray, onPlane = num(a0 + da * enter), num(middle + sum(g[k] * (a[k] + d[k] * enter - center[k]) for k in range(2)))
     planeRate = num(dot(g, d))
@@ -94,7 +96,7 @@ def testPlane(o, q, cell, level, near, a, d, pixelLength, a0, da, inFront, attac
     crosses = goesBehind and not behind
     # It came in behind: by a crossing at most a cell before, or into what the bias makes solid.
     crossing = num(enter - first / rate) if rate != 0 else enter
-    crossed = sinks and not less((1 << level) * pixelLength, enter - crossing, 1e-5)
+    crossed = sinks and not less(max(wide, tall) * pixelLength, enter - crossing, 1e-5)
     solid = sinks and not less(bias, depthOf(o, ray) - depthOf(o, onPlane), 1e-4)
     off = less(tolerance, first, rough)
     hit = crosses and off and level == 0 if isStart else crosses or behind and inFront and (crossed or solid)
@@ -105,6 +107,7 @@ def testPlane(o, q, cell, level, near, a, d, pixelLength, a0, da, inFront, attac
         s = min(max(crossing, 0.0 if behind else enter), leave)
         affine = num(onPlane + planeRate * (s - enter))
     # On the start's plane: behind it as soon as the ray sinks by more than a rounding, over a pixel at least.
+    decisions.append((leave - enter > pixelLength, wide > tall))
     sunk = isStart and less(num(rate * max(leave - enter, pixelLength)), -tolerance / 64, 1e-7 * abs(middle))
     frontAfter = not less(last, 0.0 if behind else -noise, rough) and not sunk
     close = frontAfter and not less(tolerance, last, rough)
@@ -118,7 +121,7 @@ def testCell(o, q, cell, level, near, far, rayNear, rayFar, leavesImage, minLeve
     passed = less(num(far + bias), rayNear) and not inFront and not sky
     skipped = passed or clear and not (leavesImage and not sky)
     if level == minLevel and not skipped:
-        return testPlane(o, q, cell, level, near, a, d, pixelLength, a0, da, inFront, attached, isStart, enter, leave, bias)
+        return testPlane(o, q, cell, 1 << level, 1 << level, level, near, a, d, pixelLength, a0, da, inFront, attached, isStart, enter, leave, bias)
     closer = s
     if clear:
         closer = leave
@@ -165,12 +168,13 @@ def step(kind, s, hit, level, minLevel, maxLevel, attached, wasHidden, isStart, 
 def rounded(row): return [rounded(x) if isinstance(x, list) else single(x) if isinstance(x, float) else x for x in row]
 
 
-def keep(how, rows, model, most):
-    """The first `most` of the rows that the model can decide."""
+def keep(how, rows, model, most, alike=1):
+    """Of the rows that the model can decide the first `alike` of each sequence of decisions, `most` in all."""
     global mode
-    kept = []
+    kept, seen = [], {}
     for row in rows:
         mode = how
+        decisions.clear()
         try:
             numbers = flat(row)
             if how == "exact" and any(single(x) != x for x in numbers):
@@ -180,6 +184,11 @@ def keep(how, rows, model, most):
             continue
         finally:
             mode = "plain"
+        flags = [x for x in row if x in (0, 1) and not isinstance(x, float)]
+        kind = (tuple(decisions), tuple(flags))
+        seen[kind] = seen.get(kind, 0) + 1
+        if seen[kind] > alike:
+            continue
         kept.append(row)
         if len(kept) == most:
             break
@@ -188,7 +197,7 @@ def keep(how, rows, model, most):
 
 def planeRows(chance):
     """Before and behind the plane by shares of the tolerance with which a start lies on it."""
-    def row(o, level, q, e, l, enter, leave, start, delta, pixelLength, flags, bias):
+    def row(o, level, sides, q, e, l, enter, leave, start, delta, pixelLength, flags, bias):
         cell = [min(max(int(start[k]) >> level, 2), (kImage[k] >> level) - 3) for k in range(2)]
         near = cellDepths(o, q, cell, level, kImage)[0]
         center, middle, g = fit(o, q, cell, level, near, delta if flags[2] else [0, 0])
@@ -197,17 +206,18 @@ def planeRows(chance):
         rate = (l - e) / (leave - enter)
         onPlane = middle + sum(g[k] * (start[k] + delta[k] * enter - center[k]) for k in range(2))
         da = rate + dot(g, delta)
-        return [o, q, cell, level, near, start, delta, pixelLength, onPlane + e - da * enter, da, *flags, enter, leave, bias]
-    gaps = [0, 0.5, -0.5, 1, -1, 2, -2, (0, 0.125), (0, -0.125), (0, 0.25), (0, -0.25), (0, -0.5), (0, 0.5), -1 / 64, 1 / 64, -1 / 32, -1 / 128]
+        return [o, q, cell, *sides, level, near, start, delta, pixelLength, onPlane + e - da * enter, da, *flags, enter, leave, bias]
+    gaps = [0, 0.5, -0.5, 1, -1, 2, -2, (0, 0.125), (0, -0.125), (0, 0.25), (0, -0.25), (0, -0.5), (0, 0.5), -1 / 64, 1 / 64, -1 / 32, -1 / 128, -9 / 512, 129 / 128]
     flags = [[i, j, k] for i in (1, 0) for j in (1, 0) for k in (0, 1)]
     rows = []
-    while len(rows) < 4000:
+    while len(rows) < 40000:
         level = chance.choice((0, 0, 1))
+        sides = chance.choice(([1 << level] * 2, [1 << level] * 2, [2, 1], [1, 2]))
         e, l = chance.choice(gaps), chance.choice(gaps)
         enter, leave = chance.choice(((0.0, 0.0625), (0.25, 0.375), (0.5, 0.75), (0.125, 0.25)))
         q = chance.choice(([-8.0, 0, 0, 0], [-8.0, 0, 0, 0], [-8.0, 0.03125, 0, 0], [-8.0, 0, -0.0625, 0]))
         pixel = chance.choice((0.0625, 0.125, 0.25, 0.5))
-        rows.append((1, level, q, e, l, enter, leave, [12.5, 8.5], [chance.choice((8.0, -4.0)), chance.choice((2.0, -8.0))], pixel, chance.choice(flags), chance.choice((0.0, 0.125, 0.25, 0.5))))
+        rows.append((1, level, sides, q, e, l, enter, leave, [12.5, 8.5], [chance.choice((8.0, -4.0)), chance.choice((2.0, -8.0))], pixel, chance.choice(flags), chance.choice((0.0, 0.125, 0.25, 0.5))))
     exact = []
     for r in rows:
         try:
@@ -224,25 +234,25 @@ def planeRows(chance):
         gap = lambda: chance.choice((0, 0.3, 0.7, 1.6, 5, 50, 400)) * chance.choice((-1, 1))
         enter = chance.choice((0, 0.2, 0.6))
         try:
-            free.append(row(o, level, q, gap(), gap(), enter, enter + chance.choice((0.03, 0.1, 0.3)), [12 + chance.uniform(0.2, 0.8), 8 + chance.uniform(0.2, 0.8)],
+            free.append(row(o, level, [1 << level] * 2, q, gap(), gap(), enter, enter + chance.choice((0.03, 0.1, 0.3)), [12 + chance.uniform(0.2, 0.8), 8 + chance.uniform(0.2, 0.8)],
                             [chance.uniform(-12, 12), chance.uniform(-9, 9)], chance.choice((0.05, 0.11, 0.23)), chance.choice(flags), chance.choice((0.0, 0.01, 0.2, 3.0))))
         except Undecided:
             continue
-    return keep("exact", exact, testPlane, 260) + keep("margin", map(rounded, free), testPlane, 200)
+    return keep("exact", exact, testPlane, 300) + keep("margin", map(rounded, free), testPlane, 200)
 
 
 def cellRows(chance):
     """Depths of cell and ray that touch, and touch but for the tolerance or the bias."""
     rows = []
-    while len(rows) < 3000:
-        near = chance.choice((8.0, 8.0, 8.001953125, kSky, kSky / 2, 16.0))
-        far = near if near > 1e29 else near + chance.choice((0, 0.5, 2))
+    while len(rows) < 30000:
+        near = chance.choice((8.0, 8.0, 8.001953125, 9.0, kSky, kSky / 2, 16.0))
+        far = near if near > 1e29 else chance.choice((near, near + 0.5, near + 2, kSky))
         bias = chance.choice((0.0, 0.5))
-        rayNear = chance.choice((far, far + bias, far + 0.25, far + 1, 8.0, 4.0)) if far < 1e29 else chance.choice((8.0, 4.0))
+        rayNear = chance.choice((far, far + bias, far + 0.25, far + 1, 8.0, 4.0)) if far < 1e29 else chance.choice((8.0, 4.0, kSky))
         rayFar = max(rayNear, chance.choice((8.0, 7.0, 8.001953125, 16.0, 12.0)))
         minLevel = chance.choice((0, 0, 1, 2))
         level = chance.choice((minLevel, minLevel + 1))
-        a0, da = chance.choice(((-4.0, -8.0), (-16.0, 16.0), (-7.0, -4.0), (-8.0, 0.0), (-9.0, -2.0), (-4.0, -16.0)))
+        a0, da = chance.choice(((-4.0, -8.0), (-16.0, 16.0), (-7.0, -4.0), (-8.0, 0.0), (-9.0, -2.0), (-9.0, 0.5), (-4.0, -16.0)))
         s = chance.choice((0.125, 0.25, 0.375))
         leave = s + chance.choice((0.125, 0.25, 0.5))
         cell = [12 >> level, 8 >> level]
@@ -262,12 +272,13 @@ def enterRows(chance):
         d = [chance.choice((-1, 1)) * chance.choice((1, 2, 4, 8, 16, 32, 1, 0.5)) for _ in range(2)]
         d = [x * 2.0 ** -67 if chance.random() < 0.06 else x for x in d]
         s = chance.choice((0, 0, 0.125, 0.25, 0.5))
-        pixel = [pixelAt(a[k], d[k], int(math.floor(a[k])), s, k == 0) for k in range(2)]
+        at = chance.choice((s, s, s, s, 0, 1.5))  # the pixel may lag behind, or lie beyond the end
+        pixel = [pixelAt(a[k], d[k], int(math.floor(a[k])), at, k == 0) for k in range(2)]
         if not all(0 <= pixel[k] < image[k] for k in range(2)) or any(a[k] == int(a[k]) and d[k] < 0 for k in range(2)):
             continue
         a0, da = chance.choice(((-8.0, 4.0), (-6.0, -2.0))) if o else chance.choice(((0.25, 0.25), (0.5, -0.25)))
         rows.append([o, image, a, d, a0, da, s, pixel, level, chance.randrange(2)])
-    return keep("margin", [r for r in rows if r[1] != kImage], enterCell, 60) + keep("exact", [r for r in rows if r[0] == 1], enterCell, 140)
+    return keep("margin", [r for r in rows if r[1] != kImage], enterCell, 60, 3) + keep("exact", [r for r in rows if r[0] == 1], enterCell, 140, 3)
 
 
 def closerRows(chance):
@@ -281,7 +292,7 @@ def closerRows(chance):
         s = chance.choice((0, 0.0625, 0.125, 0.1875, 0.25, 0.3125, 0.375, 0.5))
         rows.append([1, chance.choice((8.0, 8.001953125, 10.0, 7.0)), a, d, -8.0, chance.choice((0.0, 0.0, 4.0, -4.0)), pixel, chance.randrange(2), s])
     perspective = [[0, 1 / (0.25 + 0.125 * chance.uniform(0, 0.5)), *r[2:4], 0.25, 0.125, *r[6:]] for r in rows[:200]]
-    return keep("exact", rows, closerPixel, 120) + keep("margin", map(rounded, perspective), closerPixel, 40)
+    return keep("exact", rows, closerPixel, 100, 8) + keep("margin", map(rounded, perspective), closerPixel, 40, 8)
 
 
 def make():
@@ -289,13 +300,13 @@ def make():
     ray = "ScreenRay ray = ScreenRay(a, d, pixel, a0, da, 0, 0);\n"
     outTest = ["float(t.kind)", "t.s", "t.affineDepth", "number(t.inFront)", "number(t.attached)", "number(t.isHidden)"]
     state = "HizState state = HizState({}, ivec2(0), level, front, attached, false, start);\n"
-    cell = "ivec2 begin = ivec2(cx << level, cy << level);\nHizCell c = HizCell(ivec2(cx, cy), begin, begin + ivec2(1 << level), vec2(near, {}), enter, leave, ivec2(0), {}, false, {});\n"
-    bodyPlane = "tableOrtho = o;\ntablePlane = q;\n" + ray + state.format("0.25") + cell.format("near", "false", "0.0, 0.0") + "HizTest t = testHizPlane(tableFrame(), ray, state, c, bias);"
-    bodyCell = "tableOrtho = o;\ntablePlane = q;\n" + ray + state.format("s") + cell.format("far", "leaves", "rayNear, rayFar") + \
+    cell = "ivec2 begin = ivec2(cx << level, cy << level);\nHizCell c = HizCell(ivec2(cx, cy), begin, begin + {}, vec2(near, {}), enter, leave, ivec2(0), {}, false, {});\n"
+    bodyPlane = "tableOrtho = o;\ntablePlane = q;\n" + ray + state.format("0.25") + cell.format("ivec2(wide, tall)", "near", "false", "0.0, 0.0") + "HizTest t = testHizPlane(tableFrame(), ray, state, c, bias);"
+    bodyCell = "tableOrtho = o;\ntablePlane = q;\n" + ray + state.format("s") + cell.format("ivec2(1 << level)", "far", "leaves", "rayNear, rayFar") + \
         "HizTest t = testHizCell(tableFrame(), ray, state, c, HizSettings(low, 5, 9, bias));"
     bodyEnter = "tableOrtho = o;\ntableImage = ivec2(ix, iy);\ntablePlane = vec4(o ? -8.0 : 0.125, 0.0078125, -0.00390625, 0.0);\nfloat pixel = 0.125;\n" + ray + \
         "HizCell c = enterHizCell(tableFrame(), ray, HizState(s, ivec2(px, py), level, true, true, false, false), finest);"
-    bodyCloser = "tableOrtho = o;\nfloat pixel = 0.125;\n" + ray + "HizCell c = HizCell(ivec2(0), ivec2(0), ivec2(0), vec2(near), 0.0, 1.0, ivec2(0), false, false, 0.0, 0.0);\n" \
+    bodyCloser = "tableOrtho = o;\nfloat pixel = 0.125;\n" + ray + "HizCell c = HizCell(ivec2(0), ivec2(0), ivec2(0), vec2(near, near + 4.0), 0.0, 1.0, ivec2(0), false, false, 0.0, 0.0);\n" \
         "ivec2 p = computeHizCloserPixel(tableFrame(), ray, HizState(0.0, ivec2(px, py), 1, true, attached, false, false), c, s);"
     # The ray runs right and down by a pixel a sixteenth, at depth 8: it is nearer than what lies at 9, and not than what lies at 7.
     bodyStep = "ScreenRay ray = ScreenRay(vec2(4.5, 5.5), vec2(16.0, 8.0), 0.0625, -8.0, 0.0, 0, 0);\ntableOrtho = true;\n" \
@@ -312,8 +323,8 @@ def make():
         low = min(max(low, 0), last)
         return [low, min(max(high, low), last), min(max(most, 0), 65534), min(bias, 1e30) if bias > 0 else 0]
     write("hiz_parts", "Each part of the march by the depth pyramid is right at exact borders, corners and ties.", [
-        Function("Plane", "o:b q:4 cx:i cy:i level:i near:1 a:2 d:2 pixel:1 a0:1 da:1 front:b attached:b start:b enter:1 leave:1 bias:1", outTest, planeRows(chance),
-                 lambda o, q, cx, cy, level, near, *more: testPlane(o, q, [cx, cy], level, near, *more), bodyPlane, relative=1e-4, absolute=2e-5),
+        Function("Plane", "o:b q:4 cx:i cy:i wide:i tall:i level:i near:1 a:2 d:2 pixel:1 a0:1 da:1 front:b attached:b start:b enter:1 leave:1 bias:1", outTest, planeRows(chance),
+                 lambda o, q, cx, cy, *more: testPlane(o, q, [cx, cy], *more), bodyPlane, relative=1e-4, absolute=2e-5),
         Function("Cell", "o:b q:4 cx:i cy:i level:i near:1 far:1 rayNear:1 rayFar:1 leaves:b low:i a:2 d:2 pixel:1 a0:1 da:1 front:b attached:b start:b s:1 enter:1 leave:1 bias:1", outTest,
                  cellRows(chance), lambda o, q, cx, cy, *more: testCell(o, q, [cx, cy], *more), bodyCell),
         Function("Enter", "o:b ix:i iy:i a:2 d:2 a0:1 da:1 s:1 px:i py:i level:i finest:b",

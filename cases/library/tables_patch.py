@@ -111,21 +111,21 @@ def slopeRows(chance):
         level, count, axis = chance.choice((0, 0, 1)), chance.choice((5, 5, 5, 4, 3, 1)), chance.randrange(2)
         size = lambda: chance.choice(sizes) * chance.choice((1, 1, -1))
         before, after = size(), size()
-        after = chance.choice((before, before * 2, before * (2 + 1 / 256), before + 1, before + 1 / 16, before + 4, -before, after, after))
+        after = chance.choice((before, before * 2, before * (2 + 1 / 256), before * (2 + 9 / 2048), before + 1, before + 1 / 16, before + 4, -before, after, after))
         gap = abs(after - before) / 4
         far = [x if chance.random() < 0.1 else x + chance.choice((0, gap, -gap, gap / 2, 1, -1, 1 + 1 / 256)) if chance.random() < 0.6 else chance.choice((x * 2, x / 2, x * (2 + 1 / 256), size(), -x)) for x in (before, after)]
         pixels = bend * (1 << level)
         values = [-8 - (before + far[0]) * pixels, -8 - before * pixels, -8 + after * pixels, -8 + (after + far[1]) * pixels]
         line = [1e30 if chance.random() < 0.06 else -v for v in values]
         place = chance.choice((count // 2, count // 2, count // 2, chance.randrange(count)))
-        row = [1, count, place, level, axis, 8.0, line, bend, chance.choice((0, 0, 0, 2, -2))]
+        row = [1, count, place, level, axis, 8.0, line, bend, chance.choice((0, 0, 0, 2, -2, 0.5, -0.5))]
         if all(v == 1e30 or single(v) == v and v > 0 for v in line):
             rows.append(row)
     seen = set()
     for row in rows:  # one row a kind: of how the sides stand to each other and to the bend, and what comes of it
         line, found = row[6], slope(*row)[0]
         steps = [None if 1e30 in (a, b) else (a - b) / bend for a, b in zip([line[0], line[1], 8.0, line[2]], [line[1], 8.0, line[2], line[3]])]
-        key = (row[8] > 0, row[8] < 0, row[1] == 5, *[None if x is None or y is None else (abs(x - y) <= 1, abs(x) < abs(y), x * y > 0) for x, y in zip(steps, steps[1:])],
+        key = (row[8], row[1] == 5, *[None if x is None or y is None else (abs(x - y) <= 1, abs(x) < abs(y), x * y > 0) for x, y in zip(steps, steps[1:])],
                found == 0, round(found / bend) if abs(found) < bend * 5 else 9)
         if key not in seen and len(kept) < 320:
             seen.add(key)
