@@ -299,6 +299,36 @@ void checkSanitize(int tableRow)
     check(504, t.depthBias, d2.z, 1e-05, 0);
 }
 
+void checkTrace(int tableRow)
+{
+    vec3 d0 = ownNormalWS(ivec2(1, tableRow));
+    vec3 d1 = ownNormalWS(ivec2(2, tableRow));
+    vec3 d2 = ownNormalWS(ivec2(3, tableRow));
+    vec3 d3 = ownNormalWS(ivec2(4, tableRow));
+    vec3 d4 = ownNormalWS(ivec2(5, tableRow));
+    vec3 d5 = ownNormalWS(ivec2(6, tableRow));
+    vec2 a = vec2(d0.x, d0.y);
+    float z = d0.z;
+    vec3 d = vec3(d1.x, d1.y, d1.z);
+    int low = int(d2.x);
+    int high = int(d2.y);
+    int most = int(d2.z);
+    float bias = d3.x;
+    mat4 one = mat4(vec4(1.0, 0.0, 0.0, 0.0), vec4(0.0, 1.0, 0.0, 0.0), vec4(0.0, 0.0, 1.0, 0.0), vec4(0.0, 0.0, 0.0, 1.0));
+    View v = View(one, one, one, vec2(tableImage), vec2(16.0, 12.0), 0.0, 1.0, 0.5, 64.0, true, false);
+    tableOrtho = true;
+    tablePlane = vec4(-8.0, 0.0, 0.0, 0.0);
+    TraceResult r = traceHiz(v, vec3(a.x - 16.0, 12.0 - a.y, -z), vec3(d.x, -d.y, -d.z), HizSettings(low, high, most, bias));
+    check(601, float(r.hitClass), d3.y, 1e-05, 0.0001);
+    check(602, float(r.reason), d3.z, 1e-05, 0.0001);
+    check(603, r.positionSS.x, d4.x, 1e-05, 0.0001);
+    check(604, r.positionSS.y, d4.y, 1e-05, 0.0001);
+    check(605, r.linearDepth, d4.z, 1e-05, 0.0001);
+    check(606, float(r.iterations), d5.x, 1e-05, 0.0001);
+    check(607, float(r.maxUsedLevel), d5.y, 1e-05, 0.0001);
+    check(608, float(r.intersectionKind), d5.z, 1e-05, 0.0001);
+}
+
 OwnHit traceOwn(OwnRay ray)
 {
     int row = ray.pixel.y;
@@ -308,5 +338,6 @@ OwnHit traceOwn(OwnRay ray)
     if (row >= 1000 && row <= 1135) checkCloser(row);
     if (row >= 1136 && row <= 1171) checkStep(row);
     if (row >= 1172 && row <= 1207) checkSanitize(row);
+    if (row >= 1208 && row <= 1214) checkTrace(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

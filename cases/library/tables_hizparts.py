@@ -209,7 +209,11 @@ def planeRows(chance):
         return [o, q, cell, *sides, level, near, start, delta, pixelLength, onPlane + e - da * enter, da, *flags, enter, leave, bias]
     gaps = [0, 0.5, -0.5, 1, -1, 2, -2, (0, 0.125), (0, -0.125), (0, 0.25), (0, -0.25), (0, -0.5), (0, 0.5), -1 / 64, 1 / 64, -1 / 32, -1 / 128, -9 / 512, 129 / 128]
     flags = [[i, j, k] for i in (1, 0) for j in (1, 0) for k in (0, 1)]
-    rows = []
+    # Come in behind, of which the bias makes some solid; by a crossing before the cell, of which some is too long ago.
+    rows = [(1, 0, sides, [-8.0, 0, 0, 0], (0, -0.125), (0, l), 0.25, leave, [12.5, 8.5], [8.0, 2.0], pixel, [1, 0, 0], bias)
+            for sides in ([1, 2], [2, 1], [1, 1]) for l, leave in ((-0.25, 0.375), (-0.1875, 0.3125)) for pixel in (0.0625, 0.03125, 0.125) for bias in (0.0, 0.0625, 0.125, 0.25)]
+    # Sinks from the tolerance's border through it so flatly that the crossing lies far back.
+    rows += [(1, 0, [1, 1], [-8.0, 0, 0, 0], e, -2, 0.25, 0.375, [12.5, 8.5], [8.0, 2.0], 0.0625, [1, 1, k], 0.0) for e in (-1, 0) for k in (0, 1)]
     while len(rows) < 40000:
         level = chance.choice((0, 0, 1))
         sides = chance.choice(([1 << level] * 2, [1 << level] * 2, [2, 1], [1, 2]))
@@ -258,6 +262,11 @@ def cellRows(chance):
         cell = [12 >> level, 8 >> level]
         rows.append([1, [-8.0, 0.0, 0.0, 0.0], cell, level, near, far, rayNear, rayFar, chance.randrange(2), minLevel, [12.5, 8.5], [4.0, -2.0], 0.25, a0, da, *[chance.randrange(2) for _ in range(3)],
                      s, s - 0.0625, leave, bias])
+    for front, start in ((1, 0), (0, 0), (1, 1)):
+        for near, attached in ((9.0, 1), (9.0, 0), (8.0, 1)):  # a tolerance nearer, and much
+            rows.insert(0, [1, [-8.0, 0.0, 0.0, 0.0], [6, 4], 1, near, near, 4.0, 8.0, 0, 0, [12.5, 8.5], [4.0, -2.0], 0.25, -4.0, -8.0, front, attached, start, 0.25, 0.1875, 0.5, 0.0])
+        # Sky hides nothing, not even a ray as deep as it is.
+        rows.insert(0, [1, [-8.0, 0.0, 0.0, 0.0], [6, 4], 1, kSky / 2, kSky / 2, kSky, kSky, 0, 0, [12.5, 8.5], [4.0, -2.0], 0.25, -4.0, -8.0, front, 0, start, 0.25, 0.1875, 0.5, 0.0])
     usable = [r for r in rows if r[4] == 8.0 or not (r[3] == r[9])]  # a tested cell has the plane's own depth
     return keep("exact", usable, testCell, 300)
 
@@ -295,6 +304,25 @@ def closerRows(chance):
     return keep("exact", rows, closerPixel, 100, 8) + keep("margin", map(rounded, perspective), closerPixel, 40, 8)
 
 
+def traces():
+    """Whole marches before a wall at 8 m, a metre a pixel, from starts that no pixel's centre is: place, depth, direction over the screen and in depth, settings; class, reason, end."""
+    return [
+        # From the lowest border at a column's: the march leaves the first pixel at once, and is still in the image.
+        ([12, 24], 5, [-1, -0.25, 2], [0, 0, 99, 0], [1, 0, 10.5, 23.625, 8, 3, 0, 2]),
+        # From the last column, and the last row.
+        ([31.5, 12.5], 5.5, [-1, -0.25, 2], [0, 0, 99, 0], [1, 0, 30.25, 12.1875, 8, 2, 0, 2]),
+        ([12.5, 23.5], 5.5, [-0.25, -1, 2], [0, 0, 99, 0], [1, 0, 12.1875, 22.25, 8, 2, 0, 2]),
+        # On the right border, out of the image.
+        ([32, 8.5], 5, [1, 0.25, -1], [0, 0, 99, 0], [3, 2, 32, 8.5, 5, 1, 0, 1]),
+        # Along the wall, behind it by half of what a start may be: over 25 pixels in sight to the border.
+        ([12.5, 8.5], 8 + 2 ** -10, [1, 0.25, 0], [0, 0, 99, 0], [3, 2, 32, 13.375, 8 + 2 ** -10, 25, 0, 1]),
+        # Behind it by twice that: hidden.
+        ([12.5, 8.5], 8 + 2 ** -8, [1, 0.25, 0], [0, 0, 99, 0], [3, 3, 32, 13.375, 8 + 2 ** -8, 25, 0, 0]),
+        # No step at all: unknown, and at the level on which it would begin.
+        ([12.5, 8.5], 5, [1, 0.25, 1], [2, 3, 0, 0], [3, 1, 12.5, 8.5, 5, 0, 2, 0]),
+    ]
+
+
 def make():
     chance = random.Random(31)
     ray = "ScreenRay ray = ScreenRay(a, d, pixel, a0, da, 0, 0);\n"
@@ -312,6 +340,9 @@ def make():
     bodyStep = "ScreenRay ray = ScreenRay(vec2(4.5, 5.5), vec2(16.0, 8.0), 0.0625, -8.0, 0.0, 0, 0);\ntableOrtho = true;\n" \
         "HizCell c = HizCell(ivec2(0), ivec2(0), ivec2(0), vec2(near), 0.0, 0.75, ivec2(12, 13), false, false, 0.0, 0.0);\n" \
         "HizState n = stepHiz(tableFrame(), ray, HizState(s, ivec2(4, 5), level, front, true, hid, start), c, HizTest(kind, to, 0.0, inFront, attached, hidden), HizSettings(low, high, 9, 1.0));"
+    bodyTrace = "mat4 one = mat4(vec4(1.0, 0.0, 0.0, 0.0), vec4(0.0, 1.0, 0.0, 0.0), vec4(0.0, 0.0, 1.0, 0.0), vec4(0.0, 0.0, 0.0, 1.0));\n" \
+        "View v = View(one, one, one, vec2(tableImage), vec2(16.0, 12.0), 0.0, 1.0, 0.5, 64.0, true, false);\ntableOrtho = true;\ntablePlane = vec4(-8.0, 0.0, 0.0, 0.0);\n" \
+        "TraceResult r = traceHiz(v, vec3(a.x - 16.0, 12.0 - a.y, -z), vec3(d.x, -d.y, -d.z), HizSettings(low, high, most, bias));"
     steps = [[kind, 0.125, near, level, low, high, front, hid, start, attached, 0.3125, 1 - front if kind else front, hidden]
              for kind, near, level, low, high in ((0, 9, 1, 0, 4), (0, 9, 4, 0, 4), (0, 9, 0, 0, 0), (1, 9, 1, 0, 4), (1, 7, 2, 0, 4), (1, 9, 1, 1, 4), (1, 9, 0, 0, 4), (2, 9, 0, 0, 3), (0, 9, 2, 2, 3))
              for front, hid, start, attached, hidden in ((1, 0, 1, 1, 0), (0, 0, 0, 0, 1), (0, 1, 1, 0, 0), (1, 1, 0, 1, 1))]
@@ -338,4 +369,7 @@ def make():
                  lambda kind, s, near, level, low, high, front, hid, start, attached, to, inFront, hidden: step(kind, s, 0, level, low, high, attached, hid, start, to, inFront, hidden, near > 8), bodyStep),
         Function("Sanitize", "n:i low:i high:i most:i bias:1", ["float(t.minLevel)", "float(t.maxLevel)", "float(t.maxIterations)", "t.depthBias"], sanitized, sanitize,
                  "tableLevels = n;\nHizSettings t = sanitizeHizSettings(HizSettings(low, high, most, bias));", absolute=0),
+        Function("Trace", "a:2 z:1 d:3 low:i high:i most:i bias:1", ["float(r.hitClass)", "float(r.reason)", "r.positionSS.x", "r.positionSS.y", "r.linearDepth", "float(r.iterations)",
+                 "float(r.maxUsedLevel)", "float(r.intersectionKind)"], [row[:4] for row in traces()], lambda a, z, d, *more: next(row[4] for row in traces() if [*row[0], row[1], *row[2], *row[3]] == [*a, z, *d, *more]),
+                 bodyTrace, absolute=1e-4, relative=1e-5),
     ], [], copyOf("crossray/project/depth_patch.glsl") + copyOf("crossray/project/hiz.glsl") + kHooks)
