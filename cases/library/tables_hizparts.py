@@ -222,12 +222,13 @@ def planeRows(chance):
         q = chance.choice(([-8.0, 0, 0, 0], [-8.0, 0, 0, 0], [-8.0, 0.03125, 0, 0], [-8.0, 0, -0.0625, 0]))
         pixel = chance.choice((0.0625, 0.125, 0.25, 0.5))
         rows.append((1, level, sides, q, e, l, enter, leave, [12.5, 8.5], [chance.choice((8.0, -4.0)), chance.choice((2.0, -8.0))], pixel, chance.choice(flags), chance.choice((0.0, 0.125, 0.25, 0.5))))
-    exact = []
-    for r in rows:
-        try:
-            exact.append(row(*r))
-        except Undecided:
-            continue
+
+    def exact():
+        for r in rows:
+            try:
+                yield row(*r)
+            except Undecided:
+                continue
     free = []
     while len(free) < 1500:
         o, level = chance.randrange(2), chance.choice((0, 0, 1, 2))
@@ -242,7 +243,7 @@ def planeRows(chance):
                             [chance.uniform(-12, 12), chance.uniform(-9, 9)], chance.choice((0.05, 0.11, 0.23)), chance.choice(flags), chance.choice((0.0, 0.01, 0.2, 3.0))))
         except Undecided:
             continue
-    return keep("exact", exact, testPlane, 300) + keep("margin", map(rounded, free), testPlane, 200)
+    return keep("exact", exact(), testPlane, 300) + keep("margin", map(rounded, free), testPlane, 200)
 
 
 def cellRows(chance):
