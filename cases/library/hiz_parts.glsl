@@ -332,12 +332,12 @@ void checkTrace(int tableRow)
 OwnHit traceOwn(OwnRay ray)
 {
     int row = ray.pixel.y;
-    if (row >= 0 && row <= 499) checkPlane(row);
-    if (row >= 500 && row <= 799) checkCell(row);
-    if (row >= 800 && row <= 999) checkEnter(row);
-    if (row >= 1000 && row <= 1135) checkCloser(row);
-    if (row >= 1136 && row <= 1171) checkStep(row);
-    if (row >= 1172 && row <= 1207) checkSanitize(row);
-    if (row >= 1208 && row <= 1214) checkTrace(row);
+    if (row >= 0 && row <= 503) checkPlane(row);
+    if (row >= 504 && row <= 809) checkCell(row);
+    if (row >= 810 && row <= 1009) checkEnter(row);
+    if (row >= 1010 && row <= 1145) checkCloser(row);
+    if (row >= 1146 && row <= 1181) checkStep(row);
+    if (row >= 1182 && row <= 1217) checkSanitize(row);
+    if (row >= 1218 && row <= 1224) checkTrace(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

@@ -214,6 +214,9 @@ def planeRows(chance):
             for sides in ([1, 2], [2, 1], [1, 1]) for l, leave in ((-0.25, 0.375), (-0.1875, 0.3125)) for pixel in (0.0625, 0.03125, 0.125) for bias in (0.0, 0.0625, 0.125, 0.25)]
     # Sinks from the tolerance's border through it so flatly that the crossing lies far back.
     rows += [(1, 0, [1, 1], [-8.0, 0, 0, 0], e, -2, 0.25, 0.375, [12.5, 8.5], [8.0, 2.0], 0.0625, [1, 1, k], 0.0) for e in (-1, 0) for k in (0, 1)]
+    # From the start's plane so flatly that only the length decides whether the ray sinks: in the cell, or over a pixel; and from just off it, so that it does not stand there.
+    rows += [(1, 0, [1, 1], [-8.0, 0, 0, 0], 0, -1 / 128, 0.25, 0.375, [12.5, 8.5], [8.0, 2.0], pixel, [1, 1, 1], 0.0) for pixel in (0.0625, 0.5)]
+    rows += [(1, 0, [1, 1], [-8.0, 0, 0, 0], 129 / 128, 1, 0.25, 0.375, [12.5, 8.5], [8.0, 2.0], 0.0625, [1, 1, k], 0.0) for k in (0, 1)]
     while len(rows) < 40000:
         level = chance.choice((0, 0, 1))
         sides = chance.choice(([1 << level] * 2, [1 << level] * 2, [2, 1], [1, 2]))
@@ -243,7 +246,7 @@ def planeRows(chance):
                             [chance.uniform(-12, 12), chance.uniform(-9, 9)], chance.choice((0.05, 0.11, 0.23)), chance.choice(flags), chance.choice((0.0, 0.01, 0.2, 3.0))))
         except Undecided:
             continue
-    return keep("exact", exact(), testPlane, 300) + keep("margin", map(rounded, free), testPlane, 200)
+    return keep("exact", exact(), testPlane, 304) + keep("margin", map(rounded, free), testPlane, 200)
 
 
 def cellRows(chance):
@@ -264,12 +267,12 @@ def cellRows(chance):
         rows.append([1, [-8.0, 0.0, 0.0, 0.0], cell, level, near, far, rayNear, rayFar, chance.randrange(2), minLevel, [12.5, 8.5], [4.0, -2.0], 0.25, a0, da, *[chance.randrange(2) for _ in range(3)],
                      s, s - 0.0625, leave, bias])
     for front, start in ((1, 0), (0, 0), (1, 1)):
-        for near, attached in ((9.0, 1), (9.0, 0), (8.0, 1)):  # a tolerance nearer, and much
+        for near, attached in ((9.0, 1), (9.0, 0), (8.0, 1), (8.001953125, 1), (8.001953125, 0)):  # a tolerance nearer, and much
             rows.insert(0, [1, [-8.0, 0.0, 0.0, 0.0], [6, 4], 1, near, near, 4.0, 8.0, 0, 0, [12.5, 8.5], [4.0, -2.0], 0.25, -4.0, -8.0, front, attached, start, 0.25, 0.1875, 0.5, 0.0])
         # Sky hides nothing, not even a ray as deep as it is.
         rows.insert(0, [1, [-8.0, 0.0, 0.0, 0.0], [6, 4], 1, kSky / 2, kSky / 2, kSky, kSky, 0, 0, [12.5, 8.5], [4.0, -2.0], 0.25, -4.0, -8.0, front, 0, start, 0.25, 0.1875, 0.5, 0.0])
     usable = [r for r in rows if r[4] == 8.0 or not (r[3] == r[9])]  # a tested cell has the plane's own depth
-    return keep("exact", usable, testCell, 300)
+    return keep("exact", usable, testCell, 306)
 
 
 def enterRows(chance):
@@ -292,7 +295,8 @@ def enterRows(chance):
 
 
 def closerRows(chance):
-    rows = []
+    # A ray of one depth, by just the tolerance of the start nearer than the cell.
+    rows = [[1, 8.001953125, [2.5, 2.5], [8, 4], -8.0, 0.0, [2, 2], attached, 0.25] for attached in (0, 1)]
     while len(rows) < 2000:
         a = [chance.randrange(8, 60) / 4 + 0.25 for _ in range(2)]
         d = [chance.choice((-1, 1)) * chance.choice((1, 2, 4, 8, 16)) for _ in range(2)]
@@ -302,7 +306,7 @@ def closerRows(chance):
         s = chance.choice((0, 0.0625, 0.125, 0.1875, 0.25, 0.3125, 0.375, 0.5))
         rows.append([1, chance.choice((8.0, 8.001953125, 10.0, 7.0)), a, d, -8.0, chance.choice((0.0, 0.0, 4.0, -4.0)), pixel, chance.randrange(2), s])
     perspective = [[0, 1 / (0.25 + 0.125 * chance.uniform(0, 0.5)), *r[2:4], 0.25, 0.125, *r[6:]] for r in rows[:200]]
-    return keep("exact", rows, closerPixel, 100, 8) + keep("margin", map(rounded, perspective), closerPixel, 40, 8)
+    return keep("exact", rows, closerPixel, 102, 8) + keep("margin", map(rounded, perspective), closerPixel, 40, 8)
 
 
 def traces():
