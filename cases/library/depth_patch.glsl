@@ -83,9 +83,35 @@ void checkPatch(int tableRow)
     check(6, patchAffineDepth(p, p.centerSS + vec2(3.0, -2.0)), d8.x, 0.0002, 2e-06);
 }
 
+void checkSlope(int tableRow)
+{
+    vec3 d0 = ownNormalWS(ivec2(1, tableRow));
+    vec3 d1 = ownNormalWS(ivec2(2, tableRow));
+    vec3 d2 = ownNormalWS(ivec2(3, tableRow));
+    vec3 d3 = ownNormalWS(ivec2(4, tableRow));
+    vec3 d4 = ownNormalWS(ivec2(5, tableRow));
+    bool o = d0.x > 0.5;
+    int n = int(d0.y);
+    int place = int(d0.z);
+    int level = int(d1.x);
+    int axis = int(d1.y);
+    float middle = d1.z;
+    vec4 line = vec4(d2.x, d2.y, d2.z, d3.x);
+    float bend = d3.y;
+    float favour = d3.z;
+    tableCells = ivec2(n);
+    tableCell = axis == 0 ? ivec2(place, 0) : ivec2(0, place);
+    tableMiddle = middle;
+    tableLine = axis == 0 ? line : vec4(0.001);
+    tableColumn = axis == 0 ? vec4(0.001) : line;
+    float s = fitSlope(ScreenFrame(ivec2(n << level), 0.03125, o), tableCell, axis, level, middle, bend, favour);
+    check(101, s, d4.x, 0, 0);
+}
+
 OwnHit traceOwn(OwnRay ray)
 {
     int row = ray.pixel.y;
     if (row >= 0 && row <= 699) checkPatch(row);
+    if (row >= 700 && row <= 1019) checkSlope(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

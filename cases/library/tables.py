@@ -5,6 +5,7 @@ written here once more, in doubles, from what the function's comment promises.
 A table is a G-buffer: row by row, its normals from column 1 on hold the inputs and the expected answers, three to a pixel; column 0 alone
 sends a ray, and its own tracer (docs/own-tracer.md) asks the function of that row.
 """
+import importlib
 import json
 import math
 import os
@@ -203,15 +204,8 @@ def smooth(x):
 
 
 if __name__ == "__main__":
-    import tables_core
-    import tables_hiz
-    import tables_hooks
-    import tables_linear
-    import tables_patch
-    import tables_patch_decisions
-    import tables_patch_way
-    import tables_patches
-    import tables_probe
-    import tables_project
-    for part in (tables_core, tables_probe, tables_project, tables_hooks, tables_linear, tables_patch, tables_hiz, tables_patches, tables_patch_way, tables_patch_decisions):
-        part.make()
+    for name in sorted(os.listdir(kHere)):
+        if re.fullmatch(r"tables_\w+\.py", name):
+            part = importlib.import_module(name[:-3])
+            if hasattr(part, "make"):
+                part.make()
