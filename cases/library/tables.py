@@ -204,12 +204,15 @@ def smooth(x):
 
 if __name__ == "__main__":
     import tables_core
+    import tables_depth_pyramid
     import tables_hiz
     import tables_hooks
     import tables_linear
+    import tables_linear_parts
     import tables_patch
     import tables_patches
     import tables_probe
     import tables_project
-    for part in (tables_core, tables_probe, tables_project, tables_hooks, tables_linear, tables_patch, tables_hiz, tables_patches):
+    import tables_screen_ray
+    for part in (tables_core, tables_probe, tables_project, tables_screen_ray, tables_hooks, tables_depth_pyramid, tables_linear, tables_linear_parts, tables_patch, tables_hiz, tables_patches):
         part.make()
