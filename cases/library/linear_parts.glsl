@@ -57,7 +57,7 @@ View tableView(bool orthographic, bool reversed)
 #undef CROSSRAY_PROJECT_LINEAR_GLSL
 #include "crossray/project/linear.glsl"
 
-int tableKind = 0; // 0: columns of 8 pixels, again after 32; 1: five pixels in a row; 2: a plane
+int tableKind = 0; // 0: columns of 8 pixels, again after 32; 1: five pixels in a row; 2: a plane; 3: two folds
 vec4 tableDepths = vec4(0.0);
 float tableLast = 0.0;
 ivec2 tableAxis = ivec2(1, 0);
@@ -72,7 +72,8 @@ float fetchLinearDepth(ivec2 pixel)
     float depth = at == 0 ? tableDepths.x : at == 1 ? tableDepths.y : at == 2 ? tableDepths.z : at == 3 ? tableDepths.w : tableLast;
     bool isStray = tableKind == 1 && (aside != 0 || at < 0 || at > 4);
     float affine = tableDepths.x + tableDepths.y * float(pixel.x) + tableDepths.z * float(pixel.y);
-    return tableKind == 2 ? linearDepthFromAffine(tableOrthographic, affine) : isStray ? 0.015625 : depth;
+    affine = tableKind == 3 ? tableDepths.x + tableDepths.y * abs(float(pixel.x - 50)) + tableDepths.z * abs(float(pixel.y - 46)) : affine;
+    return tableKind >= 2 ? linearDepthFromAffine(tableOrthographic, affine) : isStray ? 0.015625 : depth;
 }
 
 float recorded = 0.0; // a sum over the steps that knows their order
@@ -130,6 +131,21 @@ void checkStart(int tableRow)
     check(107, number(t.isOn), d4.y, 1e-05, 2e-06);
 }
 
+void checkFolds(int tableRow)
+{
+    vec3 d0 = ownNormalWS(ivec2(1, tableRow));
+    vec3 d1 = ownNormalWS(ivec2(2, tableRow));
+    vec3 d2 = ownNormalWS(ivec2(3, tableRow));
+    vec3 p = vec3(d0.x, d0.y, d0.z);
+    vec2 s = vec2(d1.x, d1.y);
+    tableKind = 3;
+    tableDepths = vec4(p, 0.0);
+    tableOrthographic = true;
+    LinearStart t = makeLinearStart(tableView(true, true), ScreenRay(s, vec2(5.0, 3.0), 0.2, -4.0, 0.0, 0, 0), ivec2(63, 47));
+    check(201, t.gradient.x, d1.z, 1e-05, 1e-06);
+    check(202, t.gradient.y, d2.x, 1e-05, 1e-06);
+}
+
 void checkOnPlane(int tableRow)
 {
     vec3 d0 = ownNormalWS(ivec2(1, tableRow));
@@ -141,7 +157,7 @@ void checkOnPlane(int tableRow)
     int x = int(d1.y);
     int y = int(d1.z);
     float z = d2.x;
-    check(201, number(isOnStartPlane(tableView(o, true), LinearStart(vec2(20.5, 30.5), a, g, true, true), ivec2(x, y), z)), d2.y, 1e-05, 1e-06);
+    check(301, number(isOnStartPlane(tableView(o, true), LinearStart(vec2(20.5, 30.5), a, g, true, true), ivec2(x, y), z)), d2.y, 1e-05, 1e-06);
 }
 
 void checkEnd(int tableRow)
@@ -150,7 +166,7 @@ void checkEnd(int tableRow)
     vec3 d1 = ownNormalWS(ivec2(2, tableRow));
     vec2 a = vec2(d0.x, d0.y);
     vec2 d = vec2(d0.z, d1.x);
-    check(301, computeLinearEnd(tableView(false, true), ScreenRay(a, d, 0.1, 0.0, 0.0, 0, 0)), d1.y, 1e-05, 1e-06);
+    check(401, computeLinearEnd(tableView(false, true), ScreenRay(a, d, 0.1, 0.0, 0.0, 0, 0)), d1.y, 1e-05, 1e-06);
 }
 
 void checkStride(int tableRow)
@@ -161,7 +177,7 @@ void checkStride(int tableRow)
     int n = int(d0.y);
     float end = d0.z;
     float p = d1.x;
-    check(401, computeLinearStride(LinearSettings(s, n, 1, 0.0, 0), ScreenRay(vec2(0.0), vec2(1.0), p, 0.0, 0.0, 0, 0), end), d1.y, 1e-05, 1e-06);
+    check(501, computeLinearStride(LinearSettings(s, n, 1, 0.0, 0), ScreenRay(vec2(0.0), vec2(1.0), p, 0.0, 0.0, 0, 0), end), d1.y, 1e-05, 1e-06);
 }
 
 void checkRayDepth(int tableRow)
@@ -170,7 +186,7 @@ void checkRayDepth(int tableRow)
     bool o = d0.x > 0.5;
     float s = d0.y;
     ScreenRay r = ScreenRay(vec2(3.0, 5.0), vec2(10.0, -4.0), 0.1, 0.5, -0.25, 0, 0);
-    check(501, linearRayDepth(tableView(o, true), r, s), d0.z, 1e-05, 1e-06);
+    check(601, linearRayDepth(tableView(o, true), r, s), d0.z, 1e-05, 1e-06);
 }
 
 void checkMarch(int tableRow)
@@ -194,15 +210,15 @@ void checkMarch(int tableRow)
     tableDepths = e;
     LinearResult r = traceLinear(plainView(), p, d, LinearSettings(stride, n, most, bias, h));
     tableKind = 0;
-    check(601, float(r.hitClass), d5.x, 0.0002, 0.002);
-    check(602, float(r.reason), d5.y, 0.0002, 0.002);
-    check(603, r.positionSS.x, d5.z, 0.0002, 0.002);
-    check(604, r.positionSS.y, d6.x, 0.0002, 0.002);
-    check(605, r.linearDepth, d6.y, 0.0002, 0.002);
-    check(606, float(r.iterations), d6.z, 0.0002, 0.002);
-    check(607, float(r.intersectionKind), d7.x, 0.0002, 0.002);
-    check(608, recorded, d7.y, 0.0002, 0.002);
-    check(609, recordedKinds, d7.z, 0.0002, 0.002);
+    check(701, float(r.hitClass), d5.x, 0.0002, 0.002);
+    check(702, float(r.reason), d5.y, 0.0002, 0.002);
+    check(703, r.positionSS.x, d5.z, 0.0002, 0.002);
+    check(704, r.positionSS.y, d6.x, 0.0002, 0.002);
+    check(705, r.linearDepth, d6.y, 0.0002, 0.002);
+    check(706, float(r.iterations), d6.z, 0.0002, 0.002);
+    check(707, float(r.intersectionKind), d7.x, 0.0002, 0.002);
+    check(708, recorded, d7.y, 0.0002, 0.002);
+    check(709, recordedKinds, d7.z, 0.0002, 0.002);
 }
 
 OwnHit traceOwn(OwnRay ray)
@@ -210,10 +226,11 @@ OwnHit traceOwn(OwnRay ray)
     int row = ray.pixel.y;
     if (row >= 0 && row <= 147) checkGradient(row);
     if (row >= 148 && row <= 231) checkStart(row);
-    if (row >= 232 && row <= 255) checkOnPlane(row);
-    if (row >= 256 && row <= 279) checkEnd(row);
-    if (row >= 280 && row <= 297) checkStride(row);
-    if (row >= 298 && row <= 303) checkRayDepth(row);
-    if (row >= 304 && row <= 425) checkMarch(row);
+    if (row >= 232 && row <= 234) checkFolds(row);
+    if (row >= 235 && row <= 258) checkOnPlane(row);
+    if (row >= 259 && row <= 282) checkEnd(row);
+    if (row >= 283 && row <= 300) checkStride(row);
+    if (row >= 301 && row <= 306) checkRayDepth(row);
+    if (row >= 307 && row <= 447) checkMarch(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

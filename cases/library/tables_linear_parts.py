@@ -1,11 +1,11 @@
 """The table of the parts of project/linear.glsl, and of its march where two numbers are one: exactly on a surface, exactly as thick; see tables.py."""
-from tables import copyOf, flat, Function, kInf, kNaN, single, write
+from tables import copyOf, flat, Function, kInf, kNaN, single, unit, write
 from tables_core import kSize, kViews
 from tables_linear import marchRay, Undecided
 from tables_project import screenRayInView
 
 kSurfaces = """
-int tableKind = 0; // 0: columns of 8 pixels, again after 32; 1: five pixels in a row; 2: a plane
+int tableKind = 0; // 0: columns of 8 pixels, again after 32; 1: five pixels in a row; 2: a plane; 3: two folds
 vec4 tableDepths = vec4(0.0);
 float tableLast = 0.0;
 ivec2 tableAxis = ivec2(1, 0);
@@ -20,7 +20,8 @@ float fetchLinearDepth(ivec2 pixel)
     float depth = at == 0 ? tableDepths.x : at == 1 ? tableDepths.y : at == 2 ? tableDepths.z : at == 3 ? tableDepths.w : tableLast;
     bool isStray = tableKind == 1 && (aside != 0 || at < 0 || at > 4);
     float affine = tableDepths.x + tableDepths.y * float(pixel.x) + tableDepths.z * float(pixel.y);
-    return tableKind == 2 ? linearDepthFromAffine(tableOrthographic, affine) : isStray ? 0.015625 : depth;
+    affine = tableKind == 3 ? tableDepths.x + tableDepths.y * abs(float(pixel.x - 50)) + tableDepths.z * abs(float(pixel.y - 46)) : affine;
+    return tableKind >= 2 ? linearDepthFromAffine(tableOrthographic, affine) : isStray ? 0.015625 : depth;
 }
 
 float recorded = 0.0; // a sum over the steps that knows their order
@@ -73,6 +74,13 @@ def starts():
     return rows
 
 
+def foldedStart(p, s):
+    """In the folds both sides are straight, and only what the image holds of them decides."""
+    depth = lambda x, y: -(p[0] + p[1] * abs(x - 50) + p[2] * abs(y - 46))
+    x, y = [int(v) for v in s]
+    return [gradient(1, [depth(x + k, y) for k in range(-2, 3)], 0, x, 63), gradient(1, [depth(x, y + k) for k in range(-2, 3)], 1, y, 47)]
+
+
 def onPlane(o, a, g, x, y, z):
     affine = affineOf(o, z)
     return [abs(affine - (a + g[0] * (x - 20) + g[1] * (y - 30))) <= abs(affine) * kTolerance]
@@ -109,6 +117,10 @@ def marches():
     rows += [[at(4), across, [5, 9, 3, 6], 4, 0, most, 1, 3] for most in (0, -3, 1, 4, 5, 6, 7, 8)] + [[at(4), across, [5, 9, 3, 6], 4, 0, 8, 0.25, h] for h in (-2, 0, 1)]
     # Straight away from the eye and towards it: one sample, which is the end.
     rows += [[at(z), [0, 0, s], e, *four, 1, h] for s in (-1, 1) for z, e in ((4, [4, 4, 4, 4]), (4, [5, 5, 5, 5]), (6, [5, 5, 5, 5]), (4, [1e30] * 4), (4, [0.25] * 4)) for h in (0, 2)]
+    # Ways that end in the image, at the far plane and at the near one: what hid the ray on them, and whether something does at the end.
+    rows += [[at(4), unit([0.25, 0, -1]), e, stride, 0, 256, bias, 0] for e in ([99, 99, 99, 99], [3, 99, 99, 99], [4, 99, 99, 99], [99, 10, 99, 99], [99, 99, 10, 10], [3, 3, 99, 99], [3, 99, 10, 99], [99, 10, 10, 99])
+             for stride, bias in ((1, 1), (4, 20))]
+    rows += [[at(10), unit([0.25, 0, 1]), [z] * 4, 0.5, 0, 256, 1, 0] for z in (99, 3, 0.25)]
     # Beyond what stands for no surface there is none all the same.
     rows += [[[x, -5.5, -1e35], [0, 0, 1], [1e30] * 4, *four, 1, 0], [at(4), across, [5, 1e30, 3e30, 6], *four, 1, 0]]
     # One sample less than the way's end by a thousandth and by a ten-millionth; parts of the way.
@@ -141,6 +153,9 @@ def make():
         Function("Start", "o:b p:3 s:2 a:1", ["t.centerSS.x", "t.centerSS.y", "t.affineDepth", "t.gradient.x", "t.gradient.y", "number(t.inFront)", "number(t.isOn)"], starts(), start,
                  "tableKind = 2;\ntableDepths = vec4(p, 0.0);\ntableOrthographic = o;\n"
                  "LinearStart t = makeLinearStart(" + view + ", ScreenRay(s, vec2(5.0, 3.0), 0.2, a, 0.0, 0, 0), ivec2(63, 47));", relative=1e-5, absolute=2e-6),
+        Function("Folds", "p:3 s:2", ["t.gradient.x", "t.gradient.y"], [[[-8, 0.0625, 0.03125], s] for s in ([50.5, 46.5], [50.5, 30.5], [20.5, 46.5])], foldedStart,
+                 "tableKind = 3;\ntableDepths = vec4(p, 0.0);\ntableOrthographic = true;\n"
+                 "LinearStart t = makeLinearStart(tableView(true, true), ScreenRay(s, vec2(5.0, 3.0), 0.2, -4.0, 0.0, 0, 0), ivec2(63, 47));"),
         Function("OnPlane", "o:b a:1 g:2 x:i y:i z:1", ["number(isOnStartPlane(" + view + ", LinearStart(vec2(20.5, 30.5), a, g, true, true), ivec2(x, y), z))"], planes, onPlane),
         Function("End", "a:2 d:2", ["computeLinearEnd(tableView(false, true), ScreenRay(a, d, 0.1, 0.0, 0.0, 0, 0))"],
                  [[a, d] for a in ([10, 40], [60, 4], [70, 10], [10, -5]) for d in ([5, 3], [100, 60], [-100, 3], [5, -60], [200, -1e-20], [1e-20, 96])], end),
