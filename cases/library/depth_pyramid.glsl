@@ -58,7 +58,7 @@ vec2 fetchFinerDepth(ivec2 cell)
     ivec2 size = max(tableSize, ivec2(1));
     bool isInside = cell.x >= 0 && cell.y >= 0 && cell.x < size.x && cell.y < size.y;
     int number = (cell.x % 3 + cell.y % 3 * 3 + tableSalt) % 9;
-    return isInside ? vec2(0.0625 * float(number + 1), 0.0625 * float(number + 1)) : vec2(-1.0, 2e30);
+    return isInside ? vec2(0.0625 * float(number + 1), 0.0625 * float(number + 2)) : vec2(-1.0, 2e30);
 }
 
 void checkReduce(int tableRow)
@@ -121,9 +121,9 @@ void checkCell(int tableRow)
 OwnHit traceOwn(OwnRay ray)
 {
     int row = ray.pixel.y;
-    if (row >= 0 && row <= 110) checkReduce(row);
-    if (row >= 111 && row <= 170) checkTexel(row);
-    if (row >= 171 && row <= 233) checkSizes(row);
-    if (row >= 234 && row <= 289) checkCell(row);
+    if (row >= 0 && row <= 113) checkReduce(row);
+    if (row >= 114 && row <= 173) checkTexel(row);
+    if (row >= 174 && row <= 236) checkSizes(row);
+    if (row >= 237 && row <= 292) checkCell(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

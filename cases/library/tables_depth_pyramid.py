@@ -14,7 +14,7 @@ vec2 fetchFinerDepth(ivec2 cell)
     ivec2 size = max(tableSize, ivec2(1));
     bool isInside = cell.x >= 0 && cell.y >= 0 && cell.x < size.x && cell.y < size.y;
     int number = (cell.x % 3 + cell.y % 3 * 3 + tableSalt) % 9;
-    return isInside ? vec2(0.0625 * float(number + 1), 0.0625 * float(number + 1)) : vec2(-1.0, 2e30);
+    return isInside ? vec2(0.0625 * float(number + 1), 0.0625 * float(number + 2)) : vec2(-1.0, 2e30);
 }
 """
 
@@ -24,12 +24,12 @@ def reduce(x, y, w, h, salt):
     w, h = max(w, 1), max(h, 1)
     last = [max(n // 2, 1) - 1 for n in (w, h)]
     under = [[i for i in range(n) if min(i // 2, end) == c] for c, n, end in zip((x, y), (w, h), last)]
-    numbers = [((i % 3 + j % 3 * 3 + salt) % 9 + 1) / 16 for i in under[0] for j in under[1]]
-    return [min(numbers), max(numbers)]
+    numbers = [(i % 3 + j % 3 * 3 + salt) % 9 for i in under[0] for j in under[1]]
+    return [(min(numbers) + 1) / 16, (max(numbers) + 2) / 16]
 
 
 def make():
-    cells = [[x, y, w, h, salt] for w, h in ((7, 5), (6, 4), (3, 3), (2, 5), (1, 3), (3, 1), (1, 1), (0, 0), (0, 4), (5, -2)) for y in range(max(h // 2, 1)) for x in range(max(w // 2, 1))
+    cells = [[x, y, w, h, salt] for w, h in ((7, 5), (6, 4), (3, 3), (2, 7), (1, 3), (3, 1), (1, 1), (0, 0), (0, 4), (5, -2)) for y in range(max(h // 2, 1)) for x in range(max(w // 2, 1))
              for salt in (range(9) if w * h in (9, 3, 1, 0) else (0, 4, 7))]
     devices = [0.0, 1.0, 0.25, 0.5, 0.75, 0.015625, -0.25, 1.25, 1.0005, -0.0005, 1.002, -0.002, kNaN, kInf, -kInf]
     texels = [[o, r, d] for o in (0, 1) for r in (0, 1) for d in devices]
