@@ -231,6 +231,6 @@ OwnHit traceOwn(OwnRay ray)
     if (row >= 259 && row <= 282) checkEnd(row);
     if (row >= 283 && row <= 300) checkStride(row);
     if (row >= 301 && row <= 306) checkRayDepth(row);
-    if (row >= 307 && row <= 447) checkMarch(row);
+    if (row >= 307 && row <= 454) checkMarch(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

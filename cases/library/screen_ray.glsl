@@ -98,8 +98,9 @@ void checkAffine(int tableRow)
     vec3 d1 = ownNormalWS(ivec2(2, tableRow));
     bool o = d0.x > 0.5;
     float z = d0.y;
-    check(301, affineDepthFromLinear(o, z), d0.z, 1e-05, 1e-06);
-    check(302, linearDepthFromAffine(o, z), d1.x, 1e-05, 1e-06);
+    float back = d0.z;
+    check(301, affineDepthFromLinear(o, z), d1.x, 1e-05, 1e-06);
+    check(302, linearDepthFromAffine(o, back), d1.y, 1e-05, 1e-06);
 }
 
 void checkAt(int tableRow)
@@ -193,9 +194,9 @@ OwnHit traceOwn(OwnRay ray)
     if (row >= 38 && row <= 53) checkAffine(row);
     if (row >= 54 && row <= 57) checkAt(row);
     if (row >= 58 && row <= 87) checkBorder(row);
-    if (row >= 88 && row <= 263) checkPixelAt(row);
-    if (row >= 264 && row <= 271) checkPixelFar(row);
-    if (row >= 272 && row <= 303) checkExactRay(row);
-    if (row >= 304 && row <= 304) checkConstants(row);
+    if (row >= 88 && row <= 267) checkPixelAt(row);
+    if (row >= 268 && row <= 275) checkPixelFar(row);
+    if (row >= 276 && row <= 315) checkExactRay(row);
+    if (row >= 316 && row <= 316) checkConstants(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

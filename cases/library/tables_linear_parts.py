@@ -120,6 +120,9 @@ def marches():
     # Ways that end in the image, at the far plane and at the near one: what hid the ray on them, and whether something does at the end.
     rows += [[at(4), unit([0.25, 0, -1]), e, stride, 0, 256, bias, 0] for e in ([99, 99, 99, 99], [3, 99, 99, 99], [4, 99, 99, 99], [99, 10, 99, 99], [99, 99, 10, 10], [3, 3, 99, 99], [3, 99, 10, 99], [99, 10, 10, 99])
              for stride, bias in ((1, 1), (4, 20))]
+    rows += [[at(60), unit([4, 0, -1]), e, 8, 0, 256, 1, 0] for e in ([99, 10, 99, 99], [99, 99, 99, 99])]  # one sample alone is hidden
+    rows += [[at(40), unit([1, 0, 0.25]), [99, 37, 99, 99], 8, 0, 256, bias, h] for bias in (0.5, 1) for h in (0, -2)]  # nearer by the change of its depth
+    rows += [[at(4), across, [5, 9, 3, 6], *four, 1, -2]]
     rows += [[at(10), unit([0.25, 0, 1]), [z] * 4, 0.5, 0, 256, 1, 0] for z in (99, 3, 0.25)]
     # Beyond what stands for no surface there is none all the same.
     rows += [[[x, -5.5, -1e35], [0, 0, 1], [1e30] * 4, *four, 1, 0], [at(4), across, [5, 1e30, 3e30, 6], *four, 1, 0]]

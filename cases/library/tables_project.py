@@ -21,8 +21,9 @@ def screenRayInView(ortho, o, d, slope=kSlope):
         return none + [kDegenerateRay]
     z, rate = -o[2], -d[2]
     far = 65504.0
-    toNear = (kNear - z) / rate if rate < 0 else far
-    toFar = (kFar - z) / rate if rate > 0 else far
+    # What moves by so little that the way there is no number counts as standing still.
+    toNear = (kNear - z) / rate if rate < 0 and isNumber((kNear - z) / rate) else far
+    toFar = (kFar - z) / rate if rate > 0 and isNumber((kFar - z) / rate) else far
     reason = 4 if toNear < toFar and toNear < far else 7
     none[7] = reason
     if toNear <= 0 or not z > 0:

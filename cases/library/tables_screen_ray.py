@@ -17,19 +17,19 @@ def make():
 
     # In a view that is the world's axes, where origins and directions are exact: at the eye, on the near plane and on the far one, across the
     # view and nearly so, straight away, from far behind the far plane, and what overflows.
-    exact = [([0, 0, 0], [0, 0.2, -1]), ([0.1, 0.1, -0.5], [0, 0.2, 1]), ([0.1, 0.1, -0.5], [0, 0.3, -1]), ([0.1, 0.1, -64], [0, 0.2, -1]), ([0.1, 0.1, -64], [0, 0.2, 1]),
+    exact = [([0, 0, 0], [0, 0.2, -1]), ([0.1, 0.1, -0.5], [0, 0.2, 1]), ([0.1, 0.1, -0.5], [0, 0.3, -1]), ([0.1, 0.1, -64], [0, 0.2, -1]), ([0.1, 0.1, -63.5], [0, 0.2, -1]), ([0.1, 0.1, -64], [0, 0.2, 1]),
              ([0.5, 0.25, -4], [1, 0.5, 0]), ([0.5, 0.25, -4], [1, 0.5, -1e-5]), ([0.5, 0.25, -4], [-0.5, 1, 1e-5]), ([0, 0, -3], [0, 0, -1]), ([0, 0, -3], [0, 0, 1]), ([0, 0.5, -3], [0, 1, 0]),
-             ([0, 0, -0.25], [0, 0.2, 1]), ([1e36, 0, -1e-3], [0, 0.2, -1]), ([1e36, 0, -1e-3], [0, 0.2, 1])]
-    exact = [[o, p, unit(d)] for o in (0, 1) for p, d in exact] + [[0, [0, 0, -2e-38], [0, 0, -1]]] + [[0, [1, 1, -60000], unit(d)] for d in ([0.2, 0.1, 1], [0.3, -0.1, 1], [0.5, 0.7, 1])]
+             ([0, 0, -0.25], [0, 0.2, 1]), ([1e36, 0, -1e-3], [0, 0.2, -1]), ([1e36, 0, -1e-3], [0, 0.2, 1]), ([0.1, 0, -0.25], [1, 0, 2e-38]), ([0.1, 0, -70], [1, 0, -2e-38])]
+    exact = [[o, p, unit(d)] for o in (0, 1) for p, d in exact] + [[0, [0, 0, -2e-38], [0, 0, -1]]] + [[0, [1, 1, -60000], unit([k / 64, 0.125, 1])] for k in (30, 34, 35, 39, 40)]
 
-    def depths(o, z):
+    def depths(o, z, _):
         return [-z if o else 1 / max(z, 1e-30), -z if o else 1 / max(z, 1e-30)]
     walks = [[a, d, int(math.floor(a)), s, i] for a, d in ((2.5, 7.25), (7.75, -5.5), (3.0, 4.0), (6.0, -4.0), (1.25, 0.5), (5.5, 0.0), (8.5, -9.0), (40.5, 20.0), (8.25, -0.125), (2.75, 1.0))
              for s in (0.0, 0.1, 0.25, 0.3, 0.5, 0.75, 0.9, 1.0) for i in (0, 1)]
     walks += [[a, d, f, s, i] for a, d, f in ((2.5, 7.25, 4), (7.75, -5.5, 5)) for s in (0.0, 0.2, 0.6, 1.0) for i in (0, 1)]
     walks = [row for row in walks if row[1] == 0 or abs((row[0] + row[1] * row[3]) % 1 - 0.5) < 0.499 or row[3] in (0.0, 0.25, 0.5, 1.0)]
 
-    walks += [[5.5, 0.0, f, 0.5, i] for f in (2, 9) for i in (0, 1)]
+    walks += [[5.5, 0.0, f, 0.5, i] for f in (2, 9) for i in (0, 1)] + [[a, d, 1, 10.0, i] for a, d in ((1.25, 0.5), (1.75, -0.5)) for i in (0, 1)]
     # Far off the image the guess stops at 2 pixels and at a million, and two rounds go on from there.
     ends = [[2.5, -100, 2, 1, i, -4] for i in (0, 1)] + [[0.5, 1e20, 0, 1, i, 1000002] for i in (0, 1)] + [[-10, 5, -10, 1, i, -4] for i in (0, 1)] + [[3e6, -1e6, 3000000, 1, i, 1000002] for i in (0, 1)]
 
@@ -44,7 +44,7 @@ def make():
                  "ScreenRay r = makeScreenRay(tableView(o, true), p, d);"),
         Function("Frame", "o:b", ["float(f.imageSize.x)", "float(f.imageSize.y)", "f.footprint", "number(f.orthographic)"], [[0], [1]],
                  lambda o: [64, 48, 2 * 0.5 / 48, o], "ScreenFrame f = makeScreenFrame(tableView(o, true));"),
-        Function("Affine", "o:b z:1", ["affineDepthFromLinear(o, z)", "linearDepthFromAffine(o, z)"], [[o, z] for o in (0, 1) for z in (1, 4, 0.125, 0, -2, 1e-29, 1e-31, 1e29)], depths),
+        Function("Affine", "o:b z:1 back:1", ["affineDepthFromLinear(o, z)", "linearDepthFromAffine(o, back)"], [[o, z, z] for o in (0, 1) for z in (1, 4, 0.125, 0, -2, 1e-29, 1e-31, 1e29)], depths),
         Function("At", "s:1", ["screenRayPositionSS(r, s).x", "screenRayPositionSS(r, s).y", "screenRayAffineDepth(r, s)"], [[s] for s in (0, 0.25, 1, 1.5)],
                  lambda s: [3 + 10 * s, 5 - 4 * s, 0.5 + 0.25 * s], "ScreenRay r = ScreenRay(vec2(3.0, 5.0), vec2(10.0, -4.0), 0.1, 0.5, 0.25, 0, 0);"),
         Function("Border", "a:1 d:1 b:i", ["borderTime(a, d, b)", "float(entryBorder(b, d))", "float(exitBorder(b, d))"],
