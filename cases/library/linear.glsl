@@ -142,6 +142,6 @@ OwnHit traceOwn(OwnRay ray)
 {
     int row = ray.pixel.y;
     if (row >= 0 && row <= 776) checkMarch(row);
-    if (row >= 777 && row <= 790) checkNoStart(row);
+    if (row >= 777 && row <= 794) checkNoStart(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

@@ -67,15 +67,17 @@ void checkNoRay(int tableRow)
     vec3 d1 = ownNormalWS(ivec2(2, tableRow));
     vec3 d2 = ownNormalWS(ivec2(3, tableRow));
     vec3 d3 = ownNormalWS(ivec2(4, tableRow));
+    vec3 d4 = ownNormalWS(ivec2(5, tableRow));
     bool o = d0.x > 0.5;
     vec3 p = vec3(d0.y, d0.z, d1.x);
     vec3 d = vec3(d1.y, d1.z, d2.x);
     ScreenRay r = makeScreenRay(tableView(o, true), p, d);
     check(101, r.startSS.x, d2.y, 1e-05, 1e-06);
     check(102, r.startSS.y, d2.z, 1e-05, 1e-06);
-    check(103, r.startAffineDepth, d3.x, 1e-05, 1e-06);
-    check(104, r.deltaAffineDepth, d3.y, 1e-05, 1e-06);
-    check(105, float(r.status), d3.z, 1e-05, 1e-06);
+    check(103, r.pixelLength, d3.x, 1e-05, 1e-06);
+    check(104, r.startAffineDepth, d3.y, 1e-05, 1e-06);
+    check(105, r.deltaAffineDepth, d3.z, 1e-05, 1e-06);
+    check(106, float(r.status), d4.x, 1e-05, 1e-06);
 }
 
 void checkFrame(int tableRow)
@@ -96,8 +98,9 @@ void checkAffine(int tableRow)
     vec3 d1 = ownNormalWS(ivec2(2, tableRow));
     bool o = d0.x > 0.5;
     float z = d0.y;
-    check(301, affineDepthFromLinear(o, z), d0.z, 1e-05, 1e-06);
-    check(302, linearDepthFromAffine(o, z), d1.x, 1e-05, 1e-06);
+    float back = d0.z;
+    check(301, affineDepthFromLinear(o, z), d1.x, 1e-05, 1e-06);
+    check(302, linearDepthFromAffine(o, back), d1.y, 1e-05, 1e-06);
 }
 
 void checkAt(int tableRow)
@@ -135,6 +138,53 @@ void checkPixelAt(int tableRow)
     check(601, float(pixelAt(a, d, f, s, i)), d1.z, 1e-05, 0);
 }
 
+void checkPixelFar(int tableRow)
+{
+    vec3 d0 = ownNormalWS(ivec2(1, tableRow));
+    vec3 d1 = ownNormalWS(ivec2(2, tableRow));
+    vec3 d2 = ownNormalWS(ivec2(3, tableRow));
+    float a = d0.x;
+    float d = d0.y;
+    int f = int(d0.z);
+    float s = d1.x;
+    bool i = d1.y > 0.5;
+    float e = d1.z;
+    check(701, float(pixelAt(a, d, f, s, i)), d2.x, 0, 0);
+}
+
+void checkExactRay(int tableRow)
+{
+    vec3 d0 = ownNormalWS(ivec2(1, tableRow));
+    vec3 d1 = ownNormalWS(ivec2(2, tableRow));
+    vec3 d2 = ownNormalWS(ivec2(3, tableRow));
+    vec3 d3 = ownNormalWS(ivec2(4, tableRow));
+    vec3 d4 = ownNormalWS(ivec2(5, tableRow));
+    vec3 d5 = ownNormalWS(ivec2(6, tableRow));
+    bool o = d0.x > 0.5;
+    vec3 p = vec3(d0.y, d0.z, d1.x);
+    vec3 d = vec3(d1.y, d1.z, d2.x);
+    View v = tableView(o, true);
+    v.viewFromWorld = mat4(1.0);
+    ScreenRay r = makeScreenRay(v, p, d);
+    check(801, r.startSS.x, d2.y, 0.0001, 2e-05);
+    check(802, r.startSS.y, d2.z, 0.0001, 2e-05);
+    check(803, r.deltaSS.x * 1e20, d3.x, 0.0001, 2e-05);
+    check(804, r.deltaSS.y * 1e20, d3.y, 0.0001, 2e-05);
+    check(805, r.pixelLength, d3.z, 0.0001, 2e-05);
+    check(806, r.startAffineDepth, d4.x, 0.0001, 2e-05);
+    check(807, r.deltaAffineDepth, d4.y, 0.0001, 2e-05);
+    check(808, float(r.endReason), d4.z, 0.0001, 2e-05);
+    check(809, float(r.status), d5.x, 0.0001, 2e-05);
+}
+
+void checkConstants(int tableRow)
+{
+    vec3 d0 = ownNormalWS(ivec2(1, tableRow));
+    float x = d0.x;
+    check(901, kNever * x, d0.y, 1e-05, 1e-06);
+    check(902, float(kMostMarchSteps) * x, d0.z, 1e-05, 1e-06);
+}
+
 OwnHit traceOwn(OwnRay ray)
 {
     int row = ray.pixel.y;
@@ -144,6 +194,9 @@ OwnHit traceOwn(OwnRay ray)
     if (row >= 38 && row <= 53) checkAffine(row);
     if (row >= 54 && row <= 57) checkAt(row);
     if (row >= 58 && row <= 87) checkBorder(row);
-    if (row >= 88 && row <= 259) checkPixelAt(row);
+    if (row >= 88 && row <= 267) checkPixelAt(row);
+    if (row >= 268 && row <= 275) checkPixelFar(row);
+    if (row >= 276 && row <= 315) checkExactRay(row);
+    if (row >= 316 && row <= 316) checkConstants(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

@@ -55,15 +55,21 @@ def decide(a, b, share=2e-4, least=1e-6):
     return a < b
 
 
-def march(o, kind, px, py, lift, d, stride, steps, most, bias, halvings):
-    affine = (lambda z: -z) if o else (lambda z: 1 / z)
-    back = (lambda a: -a) if o else (lambda a: 1 / max(a, 1e-30))
-    depth = lambda i, j: depthAt(kind, i, j)
-    z = depth(px, py) * (1 + lift)
+def march(o, kind, px, py, lift, d, *settings):
+    z = depthAt(kind, px, py) * (1 + lift)
     ndc = [(px + 0.5) / 32 - 1, 1 - (py + 0.5) / 24]
     origin = fromView([ndc[0] * kSlope[0] * (1 if o else z), ndc[1] * kSlope[1] * (1 if o else z), -z])
     direction = sub(fromView(d), kEye)
-    sx, sy, dx, dy, pixelLength, a0, da, reason, status = flat(screenRay(o, origin, direction))
+    return marchRay(o, lambda i, j: depthAt(kind, i, j), flat(screenRay(o, origin, direction)), *settings)
+
+
+def marchRay(o, depth, ray, stride, steps, most, bias, halvings, isExact=False):
+    """isExact: depths are numbers that floats hold, and of two equal ones the comment of the file says which is which."""
+    affine = (lambda z: -z) if o else (lambda z: 1 / z)
+    back = (lambda a: -a) if o else (lambda a: 1 / max(a, 1e-30))
+    less = (lambda a, b, *_: a < b) if isExact else decide
+    sx, sy, dx, dy, pixelLength, a0, da, reason, status = ray
+    px, py = [min(max(int(math.floor(p)), 0), int(n) - 1) for p, n in zip((sx, sy), kSize)]
     assert status == 0
     end = min(max(min(((0 if v < 0 else k) - s) / v for s, v, k in zip((sx, sy), (dx, dy), kSize)), 0), 1)
     step = end / steps if steps > 0 else (min(max(stride, 0.001), 65536) if stride > 0 else 1) * pixelLength
@@ -90,7 +96,7 @@ def march(o, kind, px, py, lift, d, stride, steps, most, bias, halvings):
     here = affine(depth(px, py))
     ahead = a0 - here - dot(slope, [sx - px - 0.5, sy - py - 0.5])
     tolerance = abs(here) / 4096
-    if 0.5 * tolerance < abs(ahead) < 1.5 * tolerance:
+    if 0.5 * tolerance < abs(ahead) < 1.5 * tolerance and not isExact:
         raise Undecided
     on = abs(ahead) <= tolerance
     startsInFront = ahead >= -tolerance
@@ -107,10 +113,10 @@ def march(o, kind, px, py, lift, d, stride, steps, most, bias, halvings):
             return p, ray, surface, False
         strays = abs(affine(surface) - here - dot(slope, [i - px, j - py]))
         bound = abs(affine(surface)) / 4096
-        if on and 0.5 * bound < strays < 1.5 * bound:
+        if on and 0.5 * bound < strays < 1.5 * bound and not isExact:
             raise Undecided
         own = on and strays <= bound
-        return p, ray, surface, not own and not decide(ray, surface, 4e-5)
+        return p, ray, surface, not own and (ray > surface if isExact else not decide(ray, surface, 4e-5))
 
     inFront, hidden = startsInFront, not startsInFront
     taken, last, kindOf, iterations, total, kinds = 0, 0.0, 0, 0, 0.0, 0
@@ -142,7 +148,7 @@ def march(o, kind, px, py, lift, d, stride, steps, most, bias, halvings):
         if halving or (behind and outer == s and last == s and gap == ray - surface and inFront):
             inFront = True
         if wasDecided:
-            hit = not decide(max(bias, abs(back(a0 + da * outer) - back(a0 + da * inner))), gap, 1e-4)
+            hit = not less(max(bias, abs(back(a0 + da * outer) - back(a0 + da * inner))), gap, 1e-4)
             if not hit:
                 inFront, hidden = False, True
         kindOf = 2 if hit else 1 if behind else 0
@@ -186,6 +192,11 @@ def noStarts():
     return [row for row in rows if row is not None]
 
 
+def hiddenStarts():
+    """Off the image, and farther away than what its border shows."""
+    return [[fromView(p), sub(fromView([0.1, 0.2, s]), kEye)] for p in ([-50, 3, -40], [3, 40, -40]) for s in (-1, 1)]
+
+
 def make():
     rows = []
     starts = {0: [(20, 40), (10, 30), (50, 44), (33, 36)], 1: [(10, 20), (30, 40), (58, 9)], 2: [(12, 20), (34, 20), (50, 40)], 3: [(12, 20), (40, 30), (29, 10), (1, 24)]}
@@ -214,6 +225,6 @@ def make():
                  rows, march,
                  "tableKind = k;\nView v = tableView(o, true);\nfloat z = fetchLinearDepth(ivec2(x, y)) * (1.0 + lift);\nvec3 p = positionWSFromSS(v, vec2(float(x) + 0.5, float(y) + 0.5), z);\n"
                  "vec3 w = (v.worldFromView * vec4(d, 0.0)).xyz;\nLinearResult r = traceLinear(v, p, w, LinearSettings(stride, n, most, bias, h));", relative=2e-4, absolute=2e-3),
-        Function("NoStart", "p:3 d:3", ["float(r.hitClass)", "float(r.reason)", "r.positionSS.x", "r.positionSS.y", "r.linearDepth", "float(r.iterations)"], noStarts(), noStart,
+        Function("NoStart", "p:3 d:3", ["float(r.hitClass)", "float(r.reason)", "r.positionSS.x", "r.positionSS.y", "r.linearDepth", "float(r.iterations)"], noStarts() + hiddenStarts(), noStart,
                  "LinearResult r = traceLinear(tableView(false, true), p, d, LinearSettings(4.0, 0, 100, 1.0, 0));", relative=2e-5, absolute=1e-4),
     ], [], kViews + copyOf("crossray/project/linear.glsl") + kSurfaces)

@@ -1,6 +1,6 @@
-"""Tables of project/screen_ray, the pure parts of the pyramids, probe/cubemap, probe/planar and probe/urp; see tables.py."""
+"""The definition of project/screen_ray, and tables of the pure parts of the pyramids, probe/cubemap, probe/planar and probe/urp; see tables.py."""
 import math
-from tables import Function, add, clamp01, dot, flat, isNumber, kInf, kNaN, length, mul, sub, unit, write
+from tables import Function, add, clamp01, dot, flat, isNumber, kInf, kLimit, kNaN, length, mul, sub, unit, write
 from tables_core import (awayFromZero, deviceOf, fromView, isCleared, kAxes, kDegenerateRay, kEye, kFar, kNear, kSize, kSlope, kViews, linearOf, safeDivide,
                          toView, toViewDir)
 
@@ -11,15 +11,19 @@ def isTowards(v): return length(unit(v)) > 0.5
 # ------------------------------------------------------------------------------------------- project/screen_ray.glsl
 
 def screenRay(ortho, origin, direction):
+    return screenRayInView(ortho, toView(origin), unit(toViewDir(direction)))
+
+
+def screenRayInView(ortho, o, d, slope=kSlope):
     """The end by the first of the near plane, the far plane and 65504 m; two projections instead of a difference that does not cancel."""
-    d, o = unit(toViewDir(direction)), toView(origin)
     none = [0, 0, 1e-20, 1e-20, 1e20, -1 if ortho else 1, 0, 7]
     if not isTowards(d) or not isNumber(o):
         return none + [kDegenerateRay]
     z, rate = -o[2], -d[2]
     far = 65504.0
-    toNear = (kNear - z) / rate if rate < 0 else far
-    toFar = (kFar - z) / rate if rate > 0 else far
+    # What moves by so little that the way there is no number counts as standing still.
+    toNear = (kNear - z) / rate if rate < 0 and isNumber((kNear - z) / rate) else far
+    toFar = (kFar - z) / rate if rate > 0 and isNumber((kFar - z) / rate) else far
     reason = 4 if toNear < toFar and toNear < far else 7
     none[7] = reason
     if toNear <= 0 or not z > 0:
@@ -29,10 +33,13 @@ def screenRay(ortho, origin, direction):
     s = min(far, toNear, toFar)
     end = add(o, mul(d, s))
     affine = (lambda x: -x) if ortho else (lambda x: 1 / x)
-    place = lambda v: [(v[0] / (kSlope[0] * (1 if ortho else -v[2])) + 1) / 2 * kSize[0], (1 - v[1] / (kSlope[1] * (1 if ortho else -v[2]))) / 2 * kSize[1]]
+    place = lambda v: [(v[0] / (slope[0] * (1 if ortho else -v[2])) + 1) / 2 * kSize[0], (1 - v[1] / (slope[1] * (1 if ortho else -v[2]))) / 2 * kSize[1]]
     a, b = place(o), place(end)
+    change = affine(-end[2]) - affine(z)
+    if not sum(abs(x) for x in a + sub(b, a)) < kLimit or not abs(affine(z)) + abs(change) < kLimit:
+        return none + [kDegenerateRay]
     delta = [awayFromZero(x, 1e-20) for x in sub(b, a)]
-    return [a, delta, 1 / max(abs(x) for x in delta), affine(z), affine(-end[2]) - affine(z), reason, 0]
+    return [a, delta, 1 / max(abs(x) for x in delta), affine(z), change, reason, 0]
 
 
 def pixelAt(start, delta, first, s, inclusive):
@@ -48,44 +55,6 @@ def pixelAt(start, delta, first, s, inclusive):
             break
         pixel += step
     return pixel
-
-
-def screenRayTables():
-    at = lambda x, y, z: fromView([x, y, -z])
-    turn = lambda x, y, z: sub(fromView([x, y, z]), kEye)
-    rays = [([0.3, -0.2, 2], [1, 0.5, -1]), ([0.3, -0.2, 2], [-0.5, 1, 0.25]), ([1, 1, 8], [0.2, -0.3, 1]), ([-2, 1, 20], [0.1, 0.2, -1]), ([0, 0, 3], [0, 0, -1]), ([0, 0, 3], [0, 0, 1]),
-            ([0.5, 0.25, 4], [1, 0, 0]), ([0.5, 0.25, 4], [0, -1, 0]), ([1, -1, 63], [0.3, 0.1, -0.05]), ([0.2, 0.1, 0.6], [0.1, 0.1, 1]), ([-0.4, 0.3, 2], [1, -1, 1e-3])]
-    edges = [([0.1, 0.1, 0.25], [0, 0.2, 1]), ([0.1, 0.1, 0.25], [0, 0.2, -1]), ([0.1, 0.1, 70], [0, 0.2, -1]), ([0.1, 0.1, 70], [0, 0.2, 1]), ([0, 0, -1], [0, 0.2, -1]), ([0, 0, -1], [0, 0.2, 1]),
-             ([0, 0, 80], [1, 0.5, 0]), ([0, 0, 0.25], [1, 0.5, 0])]
-    rows = [[o, at(*p), turn(*d)] for o in (0, 1) for p, d in rays + edges]
-    rows += [[o, p, d] for o in (0, 1) for p, d in (([kNaN, 0, 0], [1, 0, 0]), ([0, 0, 0], [0, 0, 0]), ([0, 0, 0], [kNaN, 0, 1]), ([0, 3, 0], [0, kInf, 0]))]
-
-    def depths(o, z):
-        return [-z if o else 1 / max(z, 1e-30), -z if o else 1 / max(z, 1e-30)]
-    walks = [[a, d, int(math.floor(a)), s, i] for a, d in ((2.5, 7.25), (7.75, -5.5), (3.0, 4.0), (6.0, -4.0), (1.25, 0.5), (5.5, 0.0), (8.5, -9.0), (40.5, 20.0), (8.25, -0.125), (2.75, 1.0))
-             for s in (0.0, 0.1, 0.25, 0.3, 0.5, 0.75, 0.9, 1.0) for i in (0, 1)]
-    walks += [[a, d, f, s, i] for a, d, f in ((2.5, 7.25, 4), (7.75, -5.5, 5)) for s in (0.0, 0.2, 0.6, 1.0) for i in (0, 1)]
-    walks = [row for row in walks if row[1] == 0 or abs((row[0] + row[1] * row[3]) % 1 - 0.5) < 0.499 or row[3] in (0.0, 0.25, 0.5, 1.0)]
-
-    def walked(a, d, f, s, i):
-        return [pixelAt(a, d, f, s, i)]
-    out = ["r.startSS.x", "r.startSS.y", "r.deltaSS.x", "r.deltaSS.y", "r.pixelLength", "r.startAffineDepth", "r.deltaAffineDepth", "float(r.endReason)", "float(r.status)"]
-    plain = [row for row in rows if screenRay(*row)[-1] == 0 and min(abs(x) for x in flat(screenRay(*row))[2:4]) > 1e-3]
-    odd = [row for row in rows if screenRay(*row)[-1] != 0]
-    write("screen_ray", "A ray's way over the screen is the line between the projections of its ends, and pixels follow one another as its borders do.", [
-        Function("ScreenRay", "o:b p:3 d:3", out, plain, screenRay, "ScreenRay r = makeScreenRay(tableView(o, true), p, d);", relative=1e-4, absolute=2e-5),
-        Function("NoRay", "o:b p:3 d:3", out[:2] + out[5:7] + out[8:], odd, lambda *row: [flat(screenRay(*row))[k] for k in (0, 1, 5, 6, 8)],
-                 "ScreenRay r = makeScreenRay(tableView(o, true), p, d);"),
-        Function("Frame", "o:b", ["float(f.imageSize.x)", "float(f.imageSize.y)", "f.footprint", "number(f.orthographic)"], [[0], [1]],
-                 lambda o: [64, 48, 2 * 0.5 / 48, o], "ScreenFrame f = makeScreenFrame(tableView(o, true));"),
-        Function("Affine", "o:b z:1", ["affineDepthFromLinear(o, z)", "linearDepthFromAffine(o, z)"], [[o, z] for o in (0, 1) for z in (1, 4, 0.125, 0, -2, 1e-29, 1e-31, 1e29)], depths),
-        Function("At", "s:1", ["screenRayPositionSS(r, s).x", "screenRayPositionSS(r, s).y", "screenRayAffineDepth(r, s)"], [[s] for s in (0, 0.25, 1, 1.5)],
-                 lambda s: [3 + 10 * s, 5 - 4 * s, 0.5 + 0.25 * s], "ScreenRay r = ScreenRay(vec2(3.0, 5.0), vec2(10.0, -4.0), 0.1, 0.5, 0.25, 0, 0);"),
-        Function("Border", "a:1 d:1 b:i", ["borderTime(a, d, b)", "float(entryBorder(b, d))", "float(exitBorder(b, d))"],
-                 [[a, d, b] for a in (2.5, 7) for d in (4, -2, 0.5, 0, -0.25) for b in (0, 3, 9)],
-                 lambda a, d, b: [1e30 if d == 0 else (b - a) / d, b if d > 0 else b + 1, b + 1 if d > 0 else b]),
-        Function("PixelAt", "a:1 d:1 f:i s:1 i:b", ["float(pixelAt(a, d, f, s, i))"], walks, walked, absolute=0),
-    ], ["crossray/project/screen_ray.glsl"], kViews)
 
 
 # --------------------------------------------------------------- the pure parts of project/*_pyramid, depth_patch, linear
@@ -463,7 +432,6 @@ def urpTables():
 
 
 def make():
-    screenRayTables()
     pyramidTables()
     cubemapTables()
     planarTables()
