@@ -209,7 +209,8 @@ if __name__ == "__main__":
     import tables_linear
     import tables_patch
     import tables_patches
+    import tables_planar
     import tables_probe
     import tables_project
-    for part in (tables_core, tables_probe, tables_project, tables_hooks, tables_linear, tables_patch, tables_hiz, tables_patches):
+    for part in (tables_core, tables_probe, tables_project, tables_hooks, tables_linear, tables_patch, tables_hiz, tables_patches, tables_planar):
         part.make()
