@@ -128,9 +128,9 @@ void checkColor(int tableRow)
 OwnHit traceOwn(OwnRay ray)
 {
     int row = ray.pixel.y;
-    if (row >= 0 && row <= 447) checkInfluence(row);
-    if (row >= 448 && row <= 507) checkStep(row);
-    if (row >= 508 && row <= 512) checkFaceFade(row);
-    if (row >= 513 && row <= 530) checkColor(row);
+    if (row >= 0 && row <= 450) checkInfluence(row);
+    if (row >= 451 && row <= 510) checkStep(row);
+    if (row >= 511 && row <= 515) checkFaceFade(row);
+    if (row >= 516 && row <= 533) checkColor(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

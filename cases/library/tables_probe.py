@@ -266,8 +266,9 @@ def influenceTables():
                 rows.append([2, p, p, [1, 2, 3], none, 0, [2, 2, 2], none, none, a, b, one, one, none, 1])
     rows.append([2, [1e-4, 0, 0], [1, 0, 0], [1, 2, 3], none, 0, [2, 2, 2], none, none, [1.9999, 0, 0], [3, 0, 0], one, one, none, 1])
     rows += [[s, [0, 0, 0], [0, 1, 0], [1, 2, 3], none, 0, [2, 2, 2], one, one, none, none, one, one, [0, 1, 0], 1] for s in (0, 1, 4)]
-    # A sphere's blend normal below 0, and its own component of both; a box of less than a metre.
+    # A sphere's blend distance and blend normal below 0, and its own component of each; a box of less than a metre.
     rows += [[3, [x, 0, 0], [1, 0, 0], [1, 2, 3], none, 0, [2, 9, 9], none, none, [b, 0, 0], [9, 9, 9], one, one, none, 1] for x, b in ((2.5, -1), (2.5, kNaN), (1.5, 1), (1.5, 0.25))]
+    rows += [[3, [2.5, 0, 0], [1, 0, 0], [1, 2, 3], none, 0, [2, 9, 9], [b, 9, 9], none, none, none, one, one, none, 1] for b in (-1, kNaN, 2)]
     rows += [[2, [0.125, -0.25, 0.0625], [0, 1, 0], [1, 2, 3], none, 0, [0.5, 0.75, 0.25], [0.5] * 3, [0.5] * 3, none, none, one, one, none, 1]]
     # A capture position without a way from it: nothing faces away.
     rows += [[2, [0.5, 0.25, 0], [1, 1, 1], [1, 2, 3], none, 0, [1, 1, 1], none, none, one, one, one, one, q, 1] for q in ([-2e30, 0, 0], [0, -kInf, 0])]
@@ -376,6 +377,7 @@ def lookUpTables():
                  sky, "vec3 c = evaluateGradientSky(GradientSky(vec3(1.0, 2.0, 3.0), vec3(4.0, 5.5, 6.25), vec3(7.0, 9.0, 11.0), up, s), d);", absolute=4e-6),
         Function("TwoProbes", "w:1", ["number(needsSecondProbe(w))", "computeTwoProbeWeights(w).first", "computeTwoProbeWeights(w).second", "c.x", "c.y", "c.z"],
                  [[w] for w in (0, 0.25, 0.5, 0.9, 0.9999, 0.99998, 0.99999, 0.999995, 1, 1.5, -0.5, kNaN, 0.001)], two, "vec3 c = blendTwoProbes(vec3(1.0, 2.0, 3.0), vec3(5.0, 7.0, 11.0), w);"),
+        Function("LargestKey", "h:3", ["float(computeHdrpProbeKey(h))"], [[[5e5, 5e5, 1e10]], [[1e15, 1e15, 1e15]]], lambda h: 2 ** 20 - 1, absolute=0, relative=0),
         # A probe without weight may be anything.
         Function("TwoColors", "a:3 b:3 w:1", ["c.x", "c.y", "c.z"], [[[kNaN, kInf, 1], [5, 7, 11], 0], [[kNaN, kInf, 1], [5, 7, 11], -0.5], [[1, 2, 3], [kInf, 7, kNaN], 1], [[1, 2, 3], [5, 7, 11], 0.75]],
                  lambda a, b, w: b if w <= 0 else a if w >= 1 else add(mul(a, w), mul(b, 1 - w)), "vec3 c = blendTwoProbes(a, b, w);"),
