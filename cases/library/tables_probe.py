@@ -289,6 +289,9 @@ def influenceTables():
                  "ProbeWeight r = computeProbeWeight(ProbeInfluence(s, c, tableTurn(t), h, bp, bn, np, nn, fp, fn, q, w), p, n, d);", absolute=1e-5, relative=1e-5),
         Function("Step", "s:i p:3 n:3 d:3 c:3 t:b h:3 bp:3 bn:3 np:3 nn:3 fp:3 fn:3 q:3 w:1", ["r.volume", "r.blendNormal", "r.faceFade", "r.weight"], steps, influence,
                  "ProbeWeight r = computeProbeWeight(ProbeInfluence(s, c, tableTurn(t), h, bp, bn, np, nn, fp, fn, q, w), p, n, d);", absolute=3e-3),
+        # A rotation makes all components NaN of one: here one alone is.
+        Function("Box", "p:3 h:3 a:3 b:3", ["computeBoxInfluence(p, h, a, b)"], [[p, [2, 3, 4], [1, 2, 3], [3, 2, 1]] for p in ([0.5, 0, 0], [1.5, 0, 0], [0, -2, 0], [0, 0, 3], [0, kInf, 0], [-2e37, 0, 0], [kNaN, 0, 0], [0, kNaN, 0], [0, 0, kNaN])],
+                 lambda p, h, a, b: [clamp01(min(min((h[k] - p[k]) / a[k], (h[k] + p[k]) / b[k]) for k in range(3))) if isNumber(p) else 0]),
         Function("FaceFade", "d:3 p:3 n:3", ["computeFaceFade(d, p, n)"], [[d, [0.25, 0.5, 0.75], [0.3, 0.6, 0.9]] for d in ([3, 1, 0.5], [-0.1, -0.2, 0.05], [0, 9, 0], [1e-20, 2e-20, 0], [0, 0, 0])],
                  lambda d, p, n: [clamp01(sum(clamp01((4 * v - 1) * a) + clamp01((-4 * v - 1) * b) for v, a, b in zip(unit(d), p, n)))]),
         Function("Color", "c:3 m:1", ["r.x", "r.y", "r.z"], colors, color, "vec3 r = multiplyProbeColor(c, m);", absolute=0, relative=1e-6),
