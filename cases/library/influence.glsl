@@ -142,10 +142,10 @@ void checkColor(int tableRow)
 OwnHit traceOwn(OwnRay ray)
 {
     int row = ray.pixel.y;
-    if (row >= 0 && row <= 450) checkInfluence(row);
-    if (row >= 451 && row <= 510) checkStep(row);
-    if (row >= 511 && row <= 519) checkBox(row);
-    if (row >= 520 && row <= 524) checkFaceFade(row);
-    if (row >= 525 && row <= 542) checkColor(row);
+    if (row >= 0 && row <= 451) checkInfluence(row);
+    if (row >= 452 && row <= 511) checkStep(row);
+    if (row >= 512 && row <= 520) checkBox(row);
+    if (row >= 521 && row <= 525) checkFaceFade(row);
+    if (row >= 526 && row <= 543) checkColor(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

@@ -270,6 +270,7 @@ def influenceTables():
     rows += [[3, [x, 0, 0], [1, 0, 0], [1, 2, 3], none, 0, [2, 9, 9], none, none, [b, 0, 0], [9, 9, 9], one, one, none, 1] for x, b in ((2.5, -1), (2.5, kNaN), (1.5, 1), (1.5, 0.25))]
     rows += [[3, [2.5, 0, 0], [1, 0, 0], [1, 2, 3], none, 0, [2, 9, 9], [b, 9, 9], none, none, none, one, one, none, 1] for b in (-1, kNaN, 2)]
     rows += [[2, [0.125, -0.25, 0.0625], [0, 1, 0], [1, 2, 3], none, 0, [0.5, 0.75, 0.25], [0.5] * 3, [0.5] * 3, none, none, one, one, none, 1]]
+    rows += [[3, [1, 0.5, 1.5], [0, 1, 0], [1, 2, 3], center, 0, half, none, none, none, none, none, none, none, 1]]  # a sphere has no faces
     # A capture position without a way from it: nothing faces away.
     rows += [[2, [0.5, 0.25, 0], [1, 1, 1], [1, 2, 3], none, 0, [1, 1, 1], none, none, one, one, one, one, q, 1] for q in ([-2e30, 0, 0], [0, -kInf, 0])]
     # Directions at the shortest and longest that are: only the sum of the components' magnitudes, which a rotation changes, is beyond the limit.
