@@ -100,6 +100,20 @@ void checkStep(int tableRow)
     check(104, r.weight, d14.x, 1e-05, 0.003);
 }
 
+void checkBox(int tableRow)
+{
+    vec3 d0 = ownNormalWS(ivec2(1, tableRow));
+    vec3 d1 = ownNormalWS(ivec2(2, tableRow));
+    vec3 d2 = ownNormalWS(ivec2(3, tableRow));
+    vec3 d3 = ownNormalWS(ivec2(4, tableRow));
+    vec3 d4 = ownNormalWS(ivec2(5, tableRow));
+    vec3 p = vec3(d0.x, d0.y, d0.z);
+    vec3 h = vec3(d1.x, d1.y, d1.z);
+    vec3 a = vec3(d2.x, d2.y, d2.z);
+    vec3 b = vec3(d3.x, d3.y, d3.z);
+    check(201, computeBoxInfluence(p, h, a, b), d4.x, 1e-05, 1e-06);
+}
+
 void checkFaceFade(int tableRow)
 {
     vec3 d0 = ownNormalWS(ivec2(1, tableRow));
@@ -109,7 +123,7 @@ void checkFaceFade(int tableRow)
     vec3 d = vec3(d0.x, d0.y, d0.z);
     vec3 p = vec3(d1.x, d1.y, d1.z);
     vec3 n = vec3(d2.x, d2.y, d2.z);
-    check(201, computeFaceFade(d, p, n), d3.x, 1e-05, 1e-06);
+    check(301, computeFaceFade(d, p, n), d3.x, 1e-05, 1e-06);
 }
 
 void checkColor(int tableRow)
@@ -120,17 +134,18 @@ void checkColor(int tableRow)
     vec3 c = vec3(d0.x, d0.y, d0.z);
     float m = d1.x;
     vec3 r = multiplyProbeColor(c, m);
-    check(301, r.x, d1.y, 1e-06, 0);
-    check(302, r.y, d1.z, 1e-06, 0);
-    check(303, r.z, d2.x, 1e-06, 0);
+    check(401, r.x, d1.y, 1e-06, 0);
+    check(402, r.y, d1.z, 1e-06, 0);
+    check(403, r.z, d2.x, 1e-06, 0);
 }
 
 OwnHit traceOwn(OwnRay ray)
 {
     int row = ray.pixel.y;
-    if (row >= 0 && row <= 433) checkInfluence(row);
-    if (row >= 434 && row <= 493) checkStep(row);
-    if (row >= 494 && row <= 498) checkFaceFade(row);
-    if (row >= 499 && row <= 515) checkColor(row);
+    if (row >= 0 && row <= 451) checkInfluence(row);
+    if (row >= 452 && row <= 511) checkStep(row);
+    if (row >= 512 && row <= 520) checkBox(row);
+    if (row >= 521 && row <= 525) checkFaceFade(row);
+    if (row >= 526 && row <= 543) checkColor(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

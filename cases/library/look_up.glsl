@@ -113,12 +113,35 @@ void checkTwoProbes(int tableRow)
     check(506, c.z, d2.x, 1e-05, 1e-06);
 }
 
+void checkLargestKey(int tableRow)
+{
+    vec3 d0 = ownNormalWS(ivec2(1, tableRow));
+    vec3 d1 = ownNormalWS(ivec2(2, tableRow));
+    vec3 h = vec3(d0.x, d0.y, d0.z);
+    check(601, float(computeHdrpProbeKey(h)), d1.x, 0, 0);
+}
+
+void checkTwoColors(int tableRow)
+{
+    vec3 d0 = ownNormalWS(ivec2(1, tableRow));
+    vec3 d1 = ownNormalWS(ivec2(2, tableRow));
+    vec3 d2 = ownNormalWS(ivec2(3, tableRow));
+    vec3 d3 = ownNormalWS(ivec2(4, tableRow));
+    vec3 a = vec3(d0.x, d0.y, d0.z);
+    vec3 b = vec3(d1.x, d1.y, d1.z);
+    float w = d2.x;
+    vec3 c = blendTwoProbes(a, b, w);
+    check(701, c.x, d2.y, 1e-05, 1e-06);
+    check(702, c.y, d2.z, 1e-05, 1e-06);
+    check(703, c.z, d3.x, 1e-05, 1e-06);
+}
+
 void checkKey(int tableRow)
 {
     vec3 d0 = ownNormalWS(ivec2(1, tableRow));
     vec3 d1 = ownNormalWS(ivec2(2, tableRow));
     vec3 h = vec3(d0.x, d0.y, d0.z);
-    check(601, float(computeHdrpProbeKey(h)), d1.x, 3e-06, 3);
+    check(801, float(computeHdrpProbeKey(h)), d1.x, 3e-06, 3);
 }
 
 void checkOrder(int tableRow)
@@ -129,7 +152,7 @@ void checkOrder(int tableRow)
     int i = int(d0.y);
     int b = int(d0.z);
     int j = int(d1.x);
-    check(701, number(hdrpProbeComesFirst(a, i, b, j)), d1.y, 1e-05, 1e-06);
+    check(901, number(hdrpProbeComesFirst(a, i, b, j)), d1.y, 1e-05, 1e-06);
 }
 
 void checkColorTexel(int tableRow)
@@ -139,10 +162,10 @@ void checkColorTexel(int tableRow)
     vec3 d2 = ownNormalWS(ivec2(3, tableRow));
     vec3 c = vec3(d0.x, d0.y, d0.z);
     vec4 t = makeColorPyramidTexel(c);
-    check(801, t.x, d1.x, 1e-05, 0);
-    check(802, t.y, d1.y, 1e-05, 0);
-    check(803, t.z, d1.z, 1e-05, 0);
-    check(804, t.w, d2.x, 1e-05, 0);
+    check(1001, t.x, d1.x, 1e-05, 0);
+    check(1002, t.y, d1.y, 1e-05, 0);
+    check(1003, t.z, d1.z, 1e-05, 0);
+    check(1004, t.w, d2.x, 1e-05, 0);
 }
 
 OwnHit traceOwn(OwnRay ray)
@@ -151,11 +174,13 @@ OwnHit traceOwn(OwnRay ray)
     if (row >= 0 && row <= 54) checkMips(row);
     if (row >= 55 && row <= 124) checkDistanceBased(row);
     if (row >= 125 && row <= 316) checkDominant(row);
-    if (row >= 317 && row <= 335) checkRgbm(row);
-    if (row >= 336 && row <= 399) checkSky(row);
-    if (row >= 400 && row <= 411) checkTwoProbes(row);
-    if (row >= 412 && row <= 430) checkKey(row);
-    if (row >= 431 && row <= 446) checkOrder(row);
-    if (row >= 447 && row <= 455) checkColorTexel(row);
+    if (row >= 317 && row <= 339) checkRgbm(row);
+    if (row >= 340 && row <= 403) checkSky(row);
+    if (row >= 404 && row <= 416) checkTwoProbes(row);
+    if (row >= 417 && row <= 418) checkLargestKey(row);
+    if (row >= 419 && row <= 422) checkTwoColors(row);
+    if (row >= 423 && row <= 444) checkKey(row);
+    if (row >= 445 && row <= 460) checkOrder(row);
+    if (row >= 461 && row <= 469) checkColorTexel(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

@@ -53,6 +53,32 @@ void checkParallax(int tableRow)
     check(7, float(r.reason), d8.x, 2e-05, 3e-05);
 }
 
+void checkBeyond(int tableRow)
+{
+    vec3 d0 = ownNormalWS(ivec2(1, tableRow));
+    vec3 d1 = ownNormalWS(ivec2(2, tableRow));
+    vec3 d2 = ownNormalWS(ivec2(3, tableRow));
+    vec3 d3 = ownNormalWS(ivec2(4, tableRow));
+    vec3 d4 = ownNormalWS(ivec2(5, tableRow));
+    vec3 d5 = ownNormalWS(ivec2(6, tableRow));
+    vec3 d6 = ownNormalWS(ivec2(7, tableRow));
+    vec3 d7 = ownNormalWS(ivec2(8, tableRow));
+    vec3 p = vec3(d0.x, d0.y, d0.z);
+    vec3 d = vec3(d1.x, d1.y, d1.z);
+    int s = int(d2.x);
+    vec3 c = vec3(d2.y, d2.z, d3.x);
+    bool t = d3.y > 0.5;
+    vec3 h = vec3(d3.z, d4.x, d4.y);
+    float n = d4.z;
+    vec3 q = vec3(d5.x, d5.y, d5.z);
+    ParallaxRay r = computeParallax(p, d, ProbeProxy(s, c, tableTurn(t), h, n), q);
+    check(101, r.dirWS.y, d6.x, 1e-05, 1e-06);
+    check(102, r.distance, d6.y, 1e-05, 1e-06);
+    check(103, r.distanceFromCapture, d6.z, 1e-05, 1e-06);
+    check(104, number(r.hit), d7.x, 1e-05, 1e-06);
+    check(105, float(r.reason), d7.y, 1e-05, 1e-06);
+}
+
 void checkBoxProjection(int tableRow)
 {
     vec3 d0 = ownNormalWS(ivec2(1, tableRow));
@@ -72,11 +98,11 @@ void checkBoxProjection(int tableRow)
     ProbeBox box = ProbeBox(low, high, q);
     BoxProjection b = computeBoxProjectionDivision(p, d, box);
     if (f == 1) b = computeBoxProjectionSelect(p, d, box);
-    check(101, b.dirWS.x, d5.z, 1e-05, 2e-05);
-    check(102, b.dirWS.y, d6.x, 1e-05, 2e-05);
-    check(103, b.dirWS.z, d6.y, 1e-05, 2e-05);
-    check(104, b.distance, d6.z, 1e-05, 2e-05);
-    check(105, number(b.applied), d7.x, 1e-05, 2e-05);
+    check(201, b.dirWS.x, d5.z, 1e-05, 2e-05);
+    check(202, b.dirWS.y, d6.x, 1e-05, 2e-05);
+    check(203, b.dirWS.z, d6.y, 1e-05, 2e-05);
+    check(204, b.distance, d6.z, 1e-05, 2e-05);
+    check(205, number(b.applied), d7.x, 1e-05, 2e-05);
 }
 
 void checkShapes(int tableRow)
@@ -84,14 +110,15 @@ void checkShapes(int tableRow)
     vec3 d0 = ownNormalWS(ivec2(1, tableRow));
     int a = int(d0.x);
     int b = int(d0.y);
-    check(201, number(acceptsProxyShape(a, b)), d0.z, 1e-05, 1e-06);
+    check(301, number(acceptsProxyShape(a, b)), d0.z, 1e-05, 1e-06);
 }
 
 OwnHit traceOwn(OwnRay ray)
 {
     int row = ray.pixel.y;
-    if (row >= 0 && row <= 251) checkParallax(row);
-    if (row >= 252 && row <= 435) checkBoxProjection(row);
-    if (row >= 436 && row <= 484) checkShapes(row);
+    if (row >= 0 && row <= 252) checkParallax(row);
+    if (row >= 253 && row <= 253) checkBeyond(row);
+    if (row >= 254 && row <= 437) checkBoxProjection(row);
+    if (row >= 438 && row <= 486) checkShapes(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

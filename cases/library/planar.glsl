@@ -168,15 +168,84 @@ void checkOnBorder(int tableRow)
     vec3 d0 = ownNormalWS(ivec2(1, tableRow));
     vec3 d1 = ownNormalWS(ivec2(2, tableRow));
     vec3 d2 = ownNormalWS(ivec2(3, tableRow));
+    vec3 d3 = ownNormalWS(ivec2(4, tableRow));
+    vec3 d4 = ownNormalWS(ivec2(5, tableRow));
     vec3 p = vec3(d0.x, d0.y, d0.z);
+    vec4 row = vec4(d1.x, d1.y, d1.z, d2.x);
+    vec3 d = vec3(d2.y, d2.z, d3.x);
     View v = tableView(false, false);
     v.viewFromWorld = mat4(1.0);
     v.worldFromView = mat4(1.0);
-    PlanarLookup f = lookUpPlanar(v, mat4(vec4(1.0, 0.0, 0.0, 0.0), vec4(0.0, 1.0, 0.0, 0.0), vec4(0.0, 0.0, -1.0, -1.0), vec4(0.0, 0.0, -0.5, 0.0)), p, vec3(0.0, 0.0, -1.0));
-    check(601, f.positionUV.x, d1.x, 1e-05, 1e-06);
-    check(602, f.positionUV.y, d1.y, 1e-05, 1e-06);
-    check(603, f.weight, d1.z, 1e-05, 1e-06);
-    check(604, float(f.status), d2.x, 1e-05, 1e-06);
+    PlanarLookup f = lookUpPlanar(v, withDepthRow(mat4(vec4(1.0, 0.0, 0.0, 0.0), vec4(0.0, 1.0, 0.0, 0.0), vec4(0.0, 0.0, 0.0, -1.0), vec4(0.0)), row), p, d);
+    check(601, f.positionUV.x, d3.y, 1e-05, 1e-06);
+    check(602, f.positionUV.y, d3.z, 1e-05, 1e-06);
+    check(603, f.weight, d4.x, 1e-05, 1e-06);
+    check(604, float(f.status), d4.y, 1e-05, 1e-06);
+}
+
+void checkThresholds(int tableRow)
+{
+    vec3 d0 = ownNormalWS(ivec2(1, tableRow));
+    vec3 d1 = ownNormalWS(ivec2(2, tableRow));
+    vec3 d2 = ownNormalWS(ivec2(3, tableRow));
+    vec3 d3 = ownNormalWS(ivec2(4, tableRow));
+    bool flattened = d0.x > 0.5;
+    vec2 s = vec2(d0.y, d0.z);
+    float far = d1.x;
+    vec3 p = vec3(d1.y, d1.z, d2.x);
+    vec3 n = vec3(d2.y, d2.z, d3.x);
+    View v = tableView(false, true);
+    v.worldFromView = mat4(1.0);
+    v.viewFromWorld = flattened ? mat4(vec4(0.0), vec4(0.0), vec4(0.0), vec4(1.0)) : mat4(1.0);
+    v.slope = s;
+    v.farDistance = far;
+    check(701, float(makeMirroredView(v, MirrorPlane(p, n)).status), d3.y, 1e-05, 0);
+    check(702, float(makeObliqueProjection(v, MirrorPlane(p, n)).status), d3.z, 1e-05, 0);
+}
+
+void checkDepthRow(int tableRow)
+{
+    vec3 d0 = ownNormalWS(ivec2(1, tableRow));
+    vec3 d1 = ownNormalWS(ivec2(2, tableRow));
+    vec3 d2 = ownNormalWS(ivec2(3, tableRow));
+    vec3 d3 = ownNormalWS(ivec2(4, tableRow));
+    vec3 d4 = ownNormalWS(ivec2(5, tableRow));
+    vec3 d5 = ownNormalWS(ivec2(6, tableRow));
+    vec3 d6 = ownNormalWS(ivec2(7, tableRow));
+    vec3 d7 = ownNormalWS(ivec2(8, tableRow));
+    vec3 d8 = ownNormalWS(ivec2(9, tableRow));
+    vec3 d9 = ownNormalWS(ivec2(10, tableRow));
+    vec3 d10 = ownNormalWS(ivec2(11, tableRow));
+    vec3 d11 = ownNormalWS(ivec2(12, tableRow));
+    vec3 d12 = ownNormalWS(ivec2(13, tableRow));
+    vec3 d13 = ownNormalWS(ivec2(14, tableRow));
+    vec4 a = vec4(d0.x, d0.y, d0.z, d1.x);
+    vec4 b = vec4(d1.y, d1.z, d2.x, d2.y);
+    vec4 c = vec4(d2.z, d3.x, d3.y, d3.z);
+    vec4 d = vec4(d4.x, d4.y, d4.z, d5.x);
+    vec4 row = vec4(d5.y, d5.z, d6.x, d6.y);
+    mat4 m = withDepthRow(mat4(a, b, c, d), row);
+    vec4 was = depthRow(mat4(a, b, c, d));
+    check(801, m[0].x, d6.z, 1e-05, 0);
+    check(802, m[0].y, d7.x, 1e-05, 0);
+    check(803, m[0].z, d7.y, 1e-05, 0);
+    check(804, m[0].w, d7.z, 1e-05, 0);
+    check(805, m[1].x, d8.x, 1e-05, 0);
+    check(806, m[1].y, d8.y, 1e-05, 0);
+    check(807, m[1].z, d8.z, 1e-05, 0);
+    check(808, m[1].w, d9.x, 1e-05, 0);
+    check(809, m[2].x, d9.y, 1e-05, 0);
+    check(810, m[2].y, d9.z, 1e-05, 0);
+    check(811, m[2].z, d10.x, 1e-05, 0);
+    check(812, m[2].w, d10.y, 1e-05, 0);
+    check(813, m[3].x, d10.z, 1e-05, 0);
+    check(814, m[3].y, d11.x, 1e-05, 0);
+    check(815, m[3].z, d11.y, 1e-05, 0);
+    check(816, m[3].w, d11.z, 1e-05, 0);
+    check(817, was.x, d12.x, 1e-05, 0);
+    check(818, was.y, d12.y, 1e-05, 0);
+    check(819, was.z, d12.z, 1e-05, 0);
+    check(820, was.w, d13.x, 1e-05, 0);
 }
 
 void checkAlignment(int tableRow)
@@ -186,19 +255,21 @@ void checkAlignment(int tableRow)
     vec3 d2 = ownNormalWS(ivec2(3, tableRow));
     vec3 n = vec3(d0.x, d0.y, d0.z);
     vec3 m = vec3(d1.x, d1.y, d1.z);
-    check(701, computeMirrorAlignment(MirrorPlane(vec3(0.0), n), m), d2.x, 1e-05, 1e-06);
+    check(901, computeMirrorAlignment(MirrorPlane(vec3(0.0), n), m), d2.x, 1e-05, 1e-06);
 }
 
 OwnHit traceOwn(OwnRay ray)
 {
     int row = ray.pixel.y;
     if (row >= 0 && row <= 20) checkReflection(row);
-    if (row >= 21 && row <= 49) checkView(row);
-    if (row >= 50 && row <= 103) checkSlope(row);
-    if (row >= 104 && row <= 147) checkOblique(row);
-    if (row >= 148 && row <= 267) checkFromOblique(row);
-    if (row >= 268 && row <= 331) checkLookUp(row);
-    if (row >= 332 && row <= 371) checkOnBorder(row);
-    if (row >= 372 && row <= 383) checkAlignment(row);
+    if (row >= 21 && row <= 51) checkView(row);
+    if (row >= 52 && row <= 105) checkSlope(row);
+    if (row >= 106 && row <= 149) checkOblique(row);
+    if (row >= 150 && row <= 273) checkFromOblique(row);
+    if (row >= 274 && row <= 337) checkLookUp(row);
+    if (row >= 338 && row <= 384) checkOnBorder(row);
+    if (row >= 385 && row <= 392) checkThresholds(row);
+    if (row >= 393 && row <= 393) checkDepthRow(row);
+    if (row >= 394 && row <= 405) checkAlignment(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

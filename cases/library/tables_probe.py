@@ -1,6 +1,6 @@
 """Tables of probe/ and project/proxy.glsl; see tables.py."""
 import math
-from tables import Function, add, clamp01, dot, flat, isNumber, kInf, kNaN, length, mul, smooth, sub, unit, write
+from tables import Function, add, clamp01, dot, flat, isNumber, kInf, kNaN, length, mul, single, smooth, sub, unit, write
 from tables_core import kAxes, kDegenerateInput, kDegenerateRay, kViews, fromView, safeDivide, toView
 
 kTurn = """
@@ -157,6 +157,11 @@ def parallaxTables():
                                                                            (0, [0, 0, kInf]), (0, [1e20, 0, 0]), (0, [0, -2e18, 1e19])]]
     rows += [[[0, 0, 0], [0, 0, 2], 3, [0, 0, 0], 0, [2, 9, 9], 0, [0, 0, 2]], [[0, 0, 0], [0, 2, 0], 2, [0, 0, 0], 0, [1, 3, 5], 0, [0, 3, 0]],
              [[1, 0, 0], [0, 2, 0], 2, [0, 0, 0], 0, [-1, 3, 5], 0, [0.5, 0, 0]]]
+    # The hit is no number: the origin's magnitudes add up to one less than half a step below 1e37, and the way there to more.
+    most = 1e37 - 2.0 ** 99
+    beyond = [[[most, 2.5e29, 0], [0, 1, 0], 2, [most, 2.5e29, 0], 0, [1, 9e28, 1], 0, [0, 0, 0]]]
+    # The capture is beyond what is seen on all axes.
+    rows += [[[0.5, 0, 0], [-1, -2, -3], 2, [0, 0, 0], 0, half, 0, [4, 5, 6]]]
     low, high = [-3, -1, -2], [2, 3, 4]
     boxes = [[p, d, low, high, [0.25, 0.5, -0.75, 1]] for p, d in kRays + kOutside + kBad[:5]]
     boxes += [[[0.5, 0.5, 0.5], [1, 2, 3], l, h, c] for l, h, c in [(low, high, [0, 0, 0, 0]), (low, high, [0, 0, 0, -1]), (low, high, [0, 0, 0, kNaN]), (low, high, [0, 0, 0, 0.5]),
@@ -179,6 +184,8 @@ def parallaxTables():
     write("parallax", "A probe is read towards what the reflection meets on its proxy, by parallax and by both forms of box projection.", [
         Function("Parallax", "p:3 d:3 s:i c:3 t:b h:3 n:1 q:3", ["r.dirWS.x", "r.dirWS.y", "r.dirWS.z", "r.distance", "r.distanceFromCapture", "number(r.hit)", "float(r.reason)"],
                  rows, parallax, "ParallaxRay r = computeParallax(p, d, ProbeProxy(s, c, tableTurn(t), h, n), q);", absolute=3e-5, relative=2e-5),
+        Function("Beyond", "p:3 d:3 s:i c:3 t:b h:3 n:1 q:3", ["r.dirWS.y", "r.distance", "r.distanceFromCapture", "number(r.hit)", "float(r.reason)"], beyond,
+                 lambda *given: [1, 0, 0, 0, kDegenerateRay], "ParallaxRay r = computeParallax(p, d, ProbeProxy(s, c, tableTurn(t), h, n), q);"),
         Function("BoxProjection", "f:i p:3 d:3 low:3 high:3 q:4", ["b.dirWS.x", "b.dirWS.y", "b.dirWS.z", "b.distance", "number(b.applied)"], form,
                  lambda f, *rest: boxProjection(*rest),
                  "ProbeBox box = ProbeBox(low, high, q);\nBoxProjection b = computeBoxProjectionDivision(p, d, box);\nif (f == 1) b = computeBoxProjectionSelect(p, d, box);", absolute=2e-5,
@@ -259,8 +266,21 @@ def influenceTables():
                 rows.append([2, p, p, [1, 2, 3], none, 0, [2, 2, 2], none, none, a, b, one, one, none, 1])
     rows.append([2, [1e-4, 0, 0], [1, 0, 0], [1, 2, 3], none, 0, [2, 2, 2], none, none, [1.9999, 0, 0], [3, 0, 0], one, one, none, 1])
     rows += [[s, [0, 0, 0], [0, 1, 0], [1, 2, 3], none, 0, [2, 2, 2], one, one, none, none, one, one, [0, 1, 0], 1] for s in (0, 1, 4)]
+    # A sphere's blend distance and blend normal below 0, and its own component of each; a box of less than a metre.
+    rows += [[3, [x, 0, 0], [1, 0, 0], [1, 2, 3], none, 0, [2, 9, 9], none, none, [b, 0, 0], [9, 9, 9], one, one, none, 1] for x, b in ((2.5, -1), (2.5, kNaN), (1.5, 1), (1.5, 0.25))]
+    rows += [[3, [2.5, 0, 0], [1, 0, 0], [1, 2, 3], none, 0, [2, 9, 9], [b, 9, 9], none, none, none, one, one, none, 1] for b in (-1, kNaN, 2)]
+    rows += [[2, [0.125, -0.25, 0.0625], [0, 1, 0], [1, 2, 3], none, 0, [0.5, 0.75, 0.25], [0.5] * 3, [0.5] * 3, none, none, one, one, none, 1]]
+    rows += [[3, [1, 0.5, 1.5], [0, 1, 0], [1, 2, 3], center, 0, half, none, none, none, none, none, none, none, 1]]  # a sphere has no faces
+    # A capture position without a way from it: nothing faces away.
+    rows += [[2, [0.5, 0.25, 0], [1, 1, 1], [1, 2, 3], none, 0, [1, 1, 1], none, none, one, one, one, one, q, 1] for q in ([-2e30, 0, 0], [0, -kInf, 0])]
+    # Directions at the shortest and longest that are: only the sum of the components' magnitudes, which a rotation changes, is beyond the limit.
+    rows += [[2, [1, 0.5, 1.5], [0, 1, 0], mul(d, s), center, 1, half, none, none, none, none, [0.25, 0.125, 0.5], none, none, 1]
+             for d, s in ((kAxes[0], 0.9e-30), (kAxes[1], 0.9e-30), (add(kAxes[0], add(kAxes[1], kAxes[2])), 0.55e30))]
+    # Faces that count for more than 1 or less than 0, where the sum does not hide it.
+    rows += [[2, [1, 0.5, 1.5], [0, 1, 0], d, none, 0, half, none, none, none, none, p, q, none, 1]
+             for d, p, q in (([0.27, 0.9, 0], [3, 0, 0], none), ([0.9, -0.27, 0], none, [0, 3, 0]), ([0.27, 0.3, 0.2], [-4, 1, 1], one), ([-0.3, -0.27, 0.2], one, [1, -4, 1]))]
     colors = [[[0.5, 1, 2], 3], [[-1, kNaN, kInf], 2], [[kInf, -2, kNaN], 2], [[kNaN, kInf, -3], 2], [[1, 2, 3], 0], [[1, 2, 3], -1], [[1, 2, 3], kNaN], [[70000, 3, 65504], 1],
-              [[1000, 65504, 0.001], 100], [[4, 70000, 80000], 0.5], [[9e36, 1, 2e37], 1], [[0.25, 0.5, 1e38], kInf], [[0, 0.125, 4], 7], [[0.3, 0.6, 0], 80000], [[0.001, 65504, 1000], 100], [[65504, 0.001, 0.002], 100], [[0.001, 0.002, 65504], 100]]
+              [[1000, 65504, 0.001], 100], [[4, 70000, 80000], 0.5], [[9e36, 1, 2e37], 1], [[0.25, 0.5, 1e38], kInf], [[0, 0.125, 4], 7], [[0.3, 0.6, 0], 80000], [[0.001, 65504, 1000], 100], [[65504, 0.001, 0.002], 100], [[80000, 2, 1], 0.5], [[0.001, 0.002, 65504], 100]]
 
     def color(c, m):
         fit = lambda x: min(x, kFar) if x > 0 and isNumber(x) else 0.0
@@ -270,6 +290,9 @@ def influenceTables():
                  "ProbeWeight r = computeProbeWeight(ProbeInfluence(s, c, tableTurn(t), h, bp, bn, np, nn, fp, fn, q, w), p, n, d);", absolute=1e-5, relative=1e-5),
         Function("Step", "s:i p:3 n:3 d:3 c:3 t:b h:3 bp:3 bn:3 np:3 nn:3 fp:3 fn:3 q:3 w:1", ["r.volume", "r.blendNormal", "r.faceFade", "r.weight"], steps, influence,
                  "ProbeWeight r = computeProbeWeight(ProbeInfluence(s, c, tableTurn(t), h, bp, bn, np, nn, fp, fn, q, w), p, n, d);", absolute=3e-3),
+        # A rotation makes all components NaN of one: here one alone is.
+        Function("Box", "p:3 h:3 a:3 b:3", ["computeBoxInfluence(p, h, a, b)"], [[p, [2, 3, 4], [1, 2, 3], [3, 2, 1]] for p in ([0.5, 0, 0], [1.5, 0, 0], [0, -2, 0], [0, 0, 3], [0, kInf, 0], [-2e37, 0, 0], [kNaN, 0, 0], [0, kNaN, 0], [0, 0, kNaN])],
+                 lambda p, h, a, b: [clamp01(min(min((h[k] - p[k]) / a[k], (h[k] + p[k]) / b[k]) for k in range(3))) if isNumber(p) else 0]),
         Function("FaceFade", "d:3 p:3 n:3", ["computeFaceFade(d, p, n)"], [[d, [0.25, 0.5, 0.75], [0.3, 0.6, 0.9]] for d in ([3, 1, 0.5], [-0.1, -0.2, 0.05], [0, 9, 0], [1e-20, 2e-20, 0], [0, 0, 0])],
                  lambda d, p, n: [clamp01(sum(clamp01((4 * v - 1) * a) + clamp01((-4 * v - 1) * b) for v, a, b in zip(unit(d), p, n)))]),
         Function("Color", "c:3 m:1", ["r.x", "r.y", "r.z"], colors, color, "vec3 r = multiplyProbeColor(c, m);", absolute=0, relative=1e-6),
@@ -322,7 +345,7 @@ def lookUpTables():
         return [a * (1 - t) + b * t for a, b in zip([4, 5.5, 6.25], end)]
 
     def two(w):
-        alone = not w < 0.99999
+        alone = not w < single(0.99999)
         first = 1 if alone else clamp01(w)
         return [not alone, first, 1 - first, [a if alone else b if not w > 0 else b * (1 - w) + a * w for a, b in zip([1, 2, 3], [5, 7, 11])]]
 
@@ -338,9 +361,11 @@ def lookUpTables():
     texels = [[[0.5, 0.25, 1, 0.5], [4, 2, 0, 1]], [[0.5, 0.25, 1, 0.5], [4, 2, 0, 0]], [[0.5, 0.25, 1, 0.5], [4, 2, 0, 0.5]], [[0.5, 0.25, 1, 0.5], [4, 0, 0, 1]], [[0.5, 0.25, 1, 0], [4, 2, 0, 1]],
               [[0.5, 0.25, 1, 0], [4, 0, 0, 1]], [[0.5, 0.25, 1, 0.25], [4, -1, 0, 1]], [[0.5, 0.25, 1, 0.25], [4, kNaN, 0, 1]], [[-1, kNaN, kInf, 1], [2, 1, 0, 1]], [[0.5, 2, 3, 0.75], [kNaN, 1, 0, 1]],
               [[0.5, 2, 3, 0.75], [-4, 1, 0, 1]], [[0.5, 2, 3, 0.75], [90000, 1, 0, 1]], [[0.5, 2, 3, -0.5], [4, 1, 0, 1]], [[0.5, 2, 3, 3], [4, 1.5, 0, 2]], [[90000, 0.5, 0.125, 1], [3, 2, 0, 1]],
-              [[0.5, 2, 3, kNaN], [4, 1, 0, 1]], [[0.75, 0.5, 0.1, 0.9], [5, 2.2, 0, 1]], [[0.5, 1, 2, 0.5], [4, 0.25, 0, 1]], [[0.5, 1, 2, 0.5], [60000, 0.25, 0, -3]]]
+              [[0.5, 2, 3, kNaN], [4, 1, 0, 1]], [[0.75, 0.5, 0.1, 0.9], [5, 2.2, 0, 1]], [[0.5, 1, 2, 0.5], [4, 0.25, 0, 1]], [[0.5, 1, 2, 0.5], [60000, 0.25, 0, -3]],
+              # Colours, an alpha and an exponent beyond the largest half-float, and a factor that takes them below it.
+              [[90000, 1, 2, 1], [0.5, 1, 0, 1]], [[1, 70000, 80000, 1], [0.25, 2, 0, 1]], [[0.5, 0.25, 1, 1e5], [0.5, 0.5, 0, 1]], [[0.5, 0.25, 1, 1], [4, kInf, 0, 1]]]
     keys = [[h] for h in ([0.5, 0.5, 0.5], [1, 2, 3], [3, 1, 2], [0, 1, 1], [1, 0, 1], [1, 1, 0], [-1, 2, 2], [2, -1, 2], [2, 2, -1], [10, 20, 30], [1e4, 1e4, 1e4], [1e7, 1e7, 1e7],
-            [1e15, 1e15, 1e15], [1, kInf, 1], [0.1, 0.2, 0.3], [100, 100, 100], [0.03, 0.04, 0.05], [4e6, 4e6, 4e6], [5e5, 5e5, 1e10])]
+            [1e15, 1e15, 1e15], [1, kInf, 1], [0.1, 0.2, 0.3], [100, 100, 100], [0.03, 0.04, 0.05], [4e6, 4e6, 4e6], [5e5, 5e5, 1e10], [-kInf, 1, 1], [1, -kInf, 1], [1, 1, -kInf])]
     write("look_up", "Roughness, dominant direction, RGBM, the gradient sky, two probes and HDRP's order are the documents' formulas.", [
         Function("Mips", "r:1 n:i", ["computeReflectionMip(r, n)", "computeRefractionMip(r, n)", "computeProbeMip(r, n)", "computeBuiltInMip(r)", "computeBuiltInMipExact(r)",
                  "computeReflectionColorLevel(r, n)", "computeRefractionColorLevel(r, n)"], [[r, n] for r in rough + [0.02] for n in (-1, 0, 1, 2, 7)], mips, relative=3e-5, absolute=2e-6),
@@ -355,7 +380,11 @@ def lookUpTables():
                   for d in ([1, 1, 0], [0, -1, 2], [1, 0, 0], [0, 0, 0], [3, -4, 0], [0, 5, 0], [1, 1e-6, 0], [2, 2e-5, -1])],
                  sky, "vec3 c = evaluateGradientSky(GradientSky(vec3(1.0, 2.0, 3.0), vec3(4.0, 5.5, 6.25), vec3(7.0, 9.0, 11.0), up, s), d);", absolute=4e-6),
         Function("TwoProbes", "w:1", ["number(needsSecondProbe(w))", "computeTwoProbeWeights(w).first", "computeTwoProbeWeights(w).second", "c.x", "c.y", "c.z"],
-                 [[w] for w in (0, 0.25, 0.5, 0.9, 0.9999, 0.99998, 0.999995, 1, 1.5, -0.5, kNaN, 0.001)], two, "vec3 c = blendTwoProbes(vec3(1.0, 2.0, 3.0), vec3(5.0, 7.0, 11.0), w);"),
+                 [[w] for w in (0, 0.25, 0.5, 0.9, 0.9999, 0.99998, 0.99999, 0.999995, 1, 1.5, -0.5, kNaN, 0.001)], two, "vec3 c = blendTwoProbes(vec3(1.0, 2.0, 3.0), vec3(5.0, 7.0, 11.0), w);"),
+        Function("LargestKey", "h:3", ["float(computeHdrpProbeKey(h))"], [[[5e5, 5e5, 1e10]], [[1e15, 1e15, 1e15]]], lambda h: 2 ** 20 - 1, absolute=0, relative=0),
+        # A probe without weight may be anything.
+        Function("TwoColors", "a:3 b:3 w:1", ["c.x", "c.y", "c.z"], [[[kNaN, kInf, 1], [5, 7, 11], 0], [[kNaN, kInf, 1], [5, 7, 11], -0.5], [[1, 2, 3], [kInf, 7, kNaN], 1], [[1, 2, 3], [5, 7, 11], 0.75]],
+                 lambda a, b, w: b if w <= 0 else a if w >= 1 else add(mul(a, w), mul(b, 1 - w)), "vec3 c = blendTwoProbes(a, b, w);"),
         Function("Key", "h:3", ["float(computeHdrpProbeKey(h))"], keys, lambda h: key(h), relative=3e-6, absolute=3, vulkanRows=[[kNaN, 1, 1], [1, kNaN, 1], [1, 1, kNaN]]),
         Function("Order", "a:i i:i b:i j:i", ["number(hdrpProbeComesFirst(a, i, b, j))"], [[a, i, b, j] for a in (1, 2) for b in (1, 2) for i in (0, 1) for j in (0, 1)],
                  lambda a, i, b, j: (a, i) < (b, j)),
