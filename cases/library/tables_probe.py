@@ -165,7 +165,7 @@ def boxProjection(p, d, low, high, capture):
         return [u, 0, 0]
     t = max(ahead, 0)
     hit = add(p, mul(u, t))
-    if not isNumber(hit) or min(sub(hit, low)) < -margin or min(sub(high, hit)) < -margin:
+    if not sum(abs(x) for x in hit) < 1e37 or min(sub(hit, low)) < -margin or min(sub(high, hit)) < -margin:
         return [u, 0, 0]
     return [unit(sub(hit, capture[:3]), u), t, 1]
 
@@ -183,6 +183,10 @@ def parallaxTables():
     boxes += [[[0.5, 0.5, 0.5], [1, 2, 3], l, h, c] for l, h, c in [(low, high, [0, 0, 0, 0]), (low, high, [0, 0, 0, -1]), (low, high, [0, 0, 0, kNaN]), (low, high, [0, 0, 0, 0.5]),
               (low, high, [kNaN, 0, 0, 1]), (low, high, [0, kInf, 0, 1]), (high, low, [0, 0, 0, 1]), (low, [2, 3, kInf], [0, 0, 0, 1]),
               ([-3, -1, 5], high, [0, 0, 0, 1]), ([-3, 4, -2], high, [0, 0, 0, 1]), ([3, -1, -2], high, [0, 0, 0, 1])]]
+    # A box that is one point, which the ray starts at; an end that is not finite; just beyond a large box's face, where the answer is the
+    # position; a point that is together no number, though each of its parts is.
+    boxes += [[[0.5, 0.25, 1], [1, 2, 3], [0.5, 0.25, 1], [0.5, 0.25, 1], [0, 0, 0, 1]], [[0.5, 0.5, 0.5], [1, 2, 3], [-3, -kInf, -2], high, [0, 0, 0, 1]],
+              [[1024 * (1 + 2 ** -18), 1, 2], [1, 0, 0], [-1024] * 3, [1024] * 3, [0.5, 0.25, 1, 1]], [[-9e36, 9e36, 0], [0, 0, 1], [-9e36, 0, -1], [0, 9e36, 1], [0, 0, 0, 1]]]
     boxes += [[[0.5, 1, 0], [1, 0, 2], [-3, 1, -2], [2, 1, 4], [0, 0, 0, 1]], [[0, 1, 2], [0, 1, 0], low, high, [0, 3, 2, 1]]]
     for k in range(3):
         for face, s in ((low, -1), (high, 1)):
