@@ -91,7 +91,7 @@ OwnHit traceOwn(OwnRay ray)
 {
     int row = ray.pixel.y;
     if (row >= 0 && row <= 251) checkParallax(row);
-    if (row >= 252 && row <= 443) checkBoxProjection(row);
-    if (row >= 444 && row <= 492) checkShapes(row);
+    if (row >= 252 && row <= 453) checkBoxProjection(row);
+    if (row >= 454 && row <= 502) checkShapes(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

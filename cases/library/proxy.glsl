@@ -109,9 +109,9 @@ void checkInfinite(int tableRow)
 OwnHit traceOwn(OwnRay ray)
 {
     int row = ray.pixel.y;
-    if (row >= 0 && row <= 114) checkBox(row);
-    if (row >= 115 && row <= 126) checkOnFace(row);
-    if (row >= 127 && row <= 170) checkSphere(row);
-    if (row >= 171 && row <= 184) checkInfinite(row);
+    if (row >= 0 && row <= 115) checkBox(row);
+    if (row >= 116 && row <= 127) checkOnFace(row);
+    if (row >= 128 && row <= 172) checkSphere(row);
+    if (row >= 173 && row <= 186) checkInfinite(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

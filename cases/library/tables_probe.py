@@ -103,7 +103,7 @@ def proxyTables():
     boxes += [[[-8, 0, 0], [1, 1, 0], [0, 0, 0], 0, [3, 4.5, 4]], [[-8, 0, 0], [1, 1, 0], [0, 0, 0], 0, [3, 5.5, 4]], [[0, 0, 0], [1e-8, 1e-8, 1], [0, 0, 0], 0, [1, 1, 1e9]],
               [[0.5, 0, 0], [2e-7, 0, 1], [0, 0, 0], 0, [1, 1, 1e8]], [[0.5, 0, 0], [5e-8, 0, 1], [0, 0, 0], 0, [1, 1, 1e8]]]
     # What is beyond all distances is met nowhere; along a face of a plane; past an edge within the tolerance and beyond it.
-    boxes += [[[0, 0, 0], [0, 0, 1], [0, 0, 0], 0, h] for h in ([1, 1, 5e28], [1, 1, 1e31])] + [[[0, 0, 0], [0, 1, 0], [0, 0, 0], 0, [0, 5, 5]], [[0, 0, 0], [0, 0, 1], [0, 0, 0], 0, [5, 0, 5]]]
+    boxes += [[[0, 0, 0], [0, 0, 1], [0, 0, 0], 0, h] for h in ([1, 1, 5e28], [1, 1, 1e29], [1, 1, 1e31])] + [[[0, 0, 0], [0, 1, 0], [0, 0, 0], 0, [0, 5, 5]], [[0, 0, 0], [0, 0, 1], [0, 0, 0], 0, [5, 0, 5]]]
     boxes += [[[-2, 0, 0], [1, 1, 0], [0, 0, 0], 0, [1, h, 1]] for h in (1 - 4e-6, 1, 1 - 3e-5)]
     boxes += [[[0, -2, 0], [0, 1, 1], [0, 0, 0], 0, [1, 1, h]] for h in (1 - 4e-6, 1 - 3e-5)]
     # The hit lies on its face to the last bits, though the sum of origin and way is half a millimetre beside it; where it is the origin, it
@@ -121,7 +121,8 @@ def proxyTables():
     # A ray that touches, that passes within the tolerance, and just beyond it; an origin within the tolerance of the sphere, from which the
     # ray leaves at a flat angle; one near a large sphere, where the difference of the roots cancels; a square that no float holds.
     spheres += [[[-7, 3, 0], [1, 0, 0], [0, 0, 0], 3], [[-200, 0, 100.00003], [1, 0, 0], [0, 0, 0], 100], [[-7, 0, 3.00015], [1, 0, 0], [0, 0, 0], 3],
-                [[1 + 5e-6, 0, 0], [0.005, 1, 0], [0, 0, 0], 1], [[8191.5, 0, 0], [3, 4, 0], [0, 0, 0], 8192], [[0, 0, 0], [1, 2, 3], [0, 0, 0], 1e20]]
+                [[1 + 5e-6, 0, 0], [0.005, 1, 0], [0, 0, 0], 1], [[8191.5, 0, 0], [3, 4, 0], [0, 0, 0], 8192], [[0, 0, 0], [1, 2, 3], [0, 0, 0], 1e20],
+                [[8192, 0, 0], [0.9, 8192, 0], [0, 0, 0], 8192]]  # and one on it, along which it would be noise
     out = ["hit.positionWS.x", "hit.positionWS.y", "hit.positionWS.z", "hit.distance", "number(hit.hit)", "float(hit.reason)"]
     write("proxy", "A ray meets a box or a sphere from inside where its far face is, and every ray that meets none says why.", [
         Function("Box", "o:3 d:3 c:3 turned:b h:3", out, boxes, proxyBox, "ProxyHit hit = projectProxyBox(o, d, c, tableTurn(turned), h);", absolute=6e-5, relative=2e-5),
@@ -187,6 +188,9 @@ def parallaxTables():
     # position; a point that is together no number, though each of its parts is.
     boxes += [[[0.5, 0.25, 1], [1, 2, 3], [0.5, 0.25, 1], [0.5, 0.25, 1], [0, 0, 0, 1]], [[0.5, 0.5, 0.5], [1, 2, 3], [-3, -kInf, -2], high, [0, 0, 0, 1]],
               [[1024 * (1 + 2 ** -18), 1, 2], [1, 0, 0], [-1024] * 3, [1024] * 3, [0.5, 0.25, 1, 1]], [[-9e36, 9e36, 0], [0, 0, 1], [-9e36, 0, -1], [0, 9e36, 1], [0, 0, 0, 1]]]
+    # A box beyond the origin; one whose ends are swapped by less than the margin; what is beyond all distances.
+    boxes += [[[-2, 0, 0.5], [1, 2, 3], [-3, -4, -5], [-1, 2, 3], [0, 0, 0, 1]], [[0.5, 0.5, 1], [1, 2, 0], [-3, -1, 1.00001], [2, 3, 1], [0, 0, 0, 1]]]
+    boxes += [[[0, 0, 0], [0, 0, 1], [-far] * 3, [far] * 3, [1, 0, 0, 1]] for far in (5e28, 1e29, 1e31)]
     boxes += [[[0.5, 1, 0], [1, 0, 2], [-3, 1, -2], [2, 1, 4], [0, 0, 0, 1]], [[0, 1, 2], [0, 1, 0], low, high, [0, 3, 2, 1]]]
     for k in range(3):
         for face, s in ((low, -1), (high, 1)):
