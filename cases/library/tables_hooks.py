@@ -6,15 +6,15 @@ from tables_project import chooseSlope, cubePlace, fold, normalGradient
 
 # ------------------------------------------------------------------------------------------ probe/cubemap_filter.glsl
 
-# Cubemap 0: 4 texels a side and 3 levels; 1: the same texels, of which some are no radiance; 2: no level at all; 3: one level more.
+# Cubemap 0: 4 texels a side and 3 levels; 1: the same texels, of which some are no radiance; 2: no level at all; 3: one level more; 4: 8 texels a side.
 kTexels = """
-int probeCubeSize(int cubemap) { return 4; }
+int probeCubeSize(int cubemap) { return cubemap == 4 ? 8 : 4; }
 int probeCubeLevelCount(int cubemap) { return cubemap == 2 ? 0 : cubemap == 3 ? 4 : 3; }
 
 bool askedOutside = false; // for a face, a texel or a level that there is not
 vec3 fetchProbeTexel(int cubemap, int face, ivec2 texel, int level)
 {
-    int last = max((4 >> level) - 1, 0);
+    int last = max((probeCubeSize(cubemap) >> level) - 1, 0);
     bool isTexel = min(texel.x, texel.y) >= 0 && max(texel.x, texel.y) <= last;
     bool isThere = isTexel && face >= 0 && face <= 5 && level >= 0 && level < max(probeCubeLevelCount(cubemap), 1);
     askedOutside = askedOutside || !isThere;
@@ -48,7 +48,7 @@ def texel(cubemap, face, x, y, level):
 
 def bilinear(cubemap, face, u, v, level):
     """Four texels; where two edges meet the one beyond the corner is the mean of the other three."""
-    n = max(4 >> level, 1)
+    n = max((8 if cubemap == 4 else 4) >> level, 1)
     x, y = u * n - 0.5, v * n - 0.5
     bx, by = math.floor(x), math.floor(y)
     taps = []
@@ -82,6 +82,7 @@ def cubemapFilterTables():
     edges = [[1, 0.95, 0.1], [1, 0.1, 0.95], [-1, -0.9, 0.3], [0.2, 1, 0.93], [-0.97, 1, 0.1], [0.9, -1, 0.2], [0.1, 0.94, 1], [0.92, -0.2, 1], [-0.9, 0.15, -1], [0.1, -0.93, -1], [0.2, -1, -0.9], [-1, 0.1, -0.96]]
     corners = [[s * 1.0, t * 0.93, r * 0.9] for s in (-1, 1) for t in (-1, 1) for r in (-1, 1)] + [[0.9, 1, 0.95], [-0.9, -1, 0.92], [0.93, -0.91, 1], [-0.95, 0.9, -1]]
     rows = [[0, d, level] for d in inside + edges + corners for level in (0, 1, 0.25, 1.5)] + [[0, d, level] for d in inside[:3] + corners[:2] for level in (2, 3, 1.75, -1, kNaN, kInf)]
+    rows += [[4, d, 0.25] for d in edges[:4] + corners]
     rows += [[3, d, level] for d in inside[:3] + corners[:2] for level in (2, 2.5, 3, 4)]
     rows += [[c, d, level] for c in (1, 2) for d in inside + edges[:4] for level in (0, 0.5, 2)] + [[0, d, 0.5] for d in ([0, 0, 0], [0, 0, 5], [-3, 0, 0], [0.5, 1, 0], [0, -0.5, 1])]
     write("cubemap_filter", "A cubemap is read linearly within faces, across their edges, at corners and between levels.", [
