@@ -37,7 +37,9 @@ float number(bool condition) { return condition ? 1.0 : 0.0; }
 int tableLevels = 4;
 float tableCoverage = -1.0; // of all cells, from 0 on
 bool askedOutside = false; // for a cell or a level that there is not
-ivec2 colorPyramidSize(int level) { return max(ivec2(11 >> level, 6 >> level), ivec2(1)); }
+bool tableIsTall = false;
+ivec2 colorImageSize() { return tableIsTall ? ivec2(6, 11) : ivec2(11, 6); }
+ivec2 colorPyramidSize(int level) { return max(ivec2(colorImageSize().x >> level, colorImageSize().y >> level), ivec2(1)); }
 
 vec4 fetchColorPyramid(ivec2 cell, int level)
 {
@@ -46,7 +48,8 @@ vec4 fetchColorPyramid(ivec2 cell, int level)
     askedOutside = askedOutside || !isCell || level < 0 || level >= tableLevels;
     int number = cell.x * 3 + cell.y * 5 + level * 7;
     float coverage = tableCoverage >= 0.0 ? tableCoverage : float(number % 4) * 0.25;
-    return coverage > 0.0 ? vec4(float(number % 9) * 0.5, float(number % 5), float(number % 7) * 0.25, coverage) : vec4(0.0);
+    float red = tableCoverage >= 0.0 ? 0.0 : float(number % 9) * 0.5;
+    return coverage > 0.0 ? vec4(red, float(number % 5), float(number % 7) * 0.25, coverage) : vec4(0.0);
 }
 
 int tableLevel = 0;
@@ -54,7 +57,6 @@ bool tableIsEmpty = false;
 vec4 fetchFinerColor(ivec2 cell) { return fetchColorPyramid(cell, tableLevel); }
 ivec2 finerColorSize() { return tableIsEmpty ? ivec2(0) : colorPyramidSize(tableLevel); }
 int finerColorLevel() { return tableLevel; }
-ivec2 colorImageSize() { return ivec2(11, 6); }
 
 void checkSample(int tableRow)
 {
@@ -88,15 +90,17 @@ void checkReduce(int tableRow)
     int l = int(d0.z);
     float f = d1.x;
     bool empty = d1.y > 0.5;
+    bool tall = d1.z > 0.5;
     tableLevel = l;
     tableCoverage = f;
     tableIsEmpty = empty;
+    tableIsTall = tall;
     vec4 c = reduceColorPyramidCell(ivec2(x, y));
-    check(101, c.x, d1.z, 1e-05, 4e-06);
-    check(102, c.y, d2.x, 1e-05, 4e-06);
-    check(103, c.z, d2.y, 1e-05, 4e-06);
-    check(104, c.w, d2.z, 1e-05, 4e-06);
-    check(105, number(askedOutside), d3.x, 1e-05, 4e-06);
+    check(101, c.x, d2.x, 1e-05, 4e-06);
+    check(102, c.y, d2.y, 1e-05, 4e-06);
+    check(103, c.z, d2.z, 1e-05, 4e-06);
+    check(104, c.w, d3.x, 1e-05, 4e-06);
+    check(105, number(askedOutside), d3.y, 1e-05, 4e-06);
 }
 
 void checkLevel(int tableRow)
@@ -113,7 +117,7 @@ OwnHit traceOwn(OwnRay ray)
 {
     int row = ray.pixel.y;
     if (row >= 0 && row <= 136) checkSample(row);
-    if (row >= 137 && row <= 156) checkReduce(row);
-    if (row >= 157 && row <= 228) checkLevel(row);
+    if (row >= 137 && row <= 175) checkReduce(row);
+    if (row >= 176 && row <= 247) checkLevel(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

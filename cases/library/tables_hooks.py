@@ -92,13 +92,15 @@ def cubemapFilterTables():
 
 # ----------------------------------------------------------------------------------------- project/color_pyramid.glsl
 
-# An image of 11 x 6 pixels; level 1 has 5 x 3 cells, level 2 2 x 1, level 3 one. A cell's colour and coverage are formulas, or all cells
-# have one coverage.
+# An image of 11 x 6 pixels; level 1 has 5 x 3 cells, level 2 2 x 1, level 3 one. Or of 6 x 11 pixels. A cell's colour and coverage are
+# formulas, or all cells have one coverage, and no red.
 kColors = """
 int tableLevels = 4;
 float tableCoverage = -1.0; // of all cells, from 0 on
 bool askedOutside = false; // for a cell or a level that there is not
-ivec2 colorPyramidSize(int level) { return max(ivec2(11 >> level, 6 >> level), ivec2(1)); }
+bool tableIsTall = false;
+ivec2 colorImageSize() { return tableIsTall ? ivec2(6, 11) : ivec2(11, 6); }
+ivec2 colorPyramidSize(int level) { return max(ivec2(colorImageSize().x >> level, colorImageSize().y >> level), ivec2(1)); }
 
 vec4 fetchColorPyramid(ivec2 cell, int level)
 {
@@ -107,7 +109,8 @@ vec4 fetchColorPyramid(ivec2 cell, int level)
     askedOutside = askedOutside || !isCell || level < 0 || level >= tableLevels;
     int number = cell.x * 3 + cell.y * 5 + level * 7;
     float coverage = tableCoverage >= 0.0 ? tableCoverage : float(number % 4) * 0.25;
-    return coverage > 0.0 ? vec4(float(number % 9) * 0.5, float(number % 5), float(number % 7) * 0.25, coverage) : vec4(0.0);
+    float red = tableCoverage >= 0.0 ? 0.0 : float(number % 9) * 0.5;
+    return coverage > 0.0 ? vec4(red, float(number % 5), float(number % 7) * 0.25, coverage) : vec4(0.0);
 }
 
 int tableLevel = 0;
@@ -115,17 +118,16 @@ bool tableIsEmpty = false;
 vec4 fetchFinerColor(ivec2 cell) { return fetchColorPyramid(cell, tableLevel); }
 ivec2 finerColorSize() { return tableIsEmpty ? ivec2(0) : colorPyramidSize(tableLevel); }
 int finerColorLevel() { return tableLevel; }
-ivec2 colorImageSize() { return ivec2(11, 6); }
 """
 
 
-def colorSize(level): return [max(11 >> level, 1), max(6 >> level, 1)]
+def colorSize(level, isTall=False): return [max((6 if isTall else 11) >> level, 1), max((11 if isTall else 6) >> level, 1)]
 
 
 def colorCell(x, y, level, everywhere):
     number = x * 3 + y * 5 + level * 7
     coverage = everywhere if everywhere >= 0 else number % 4 * 0.25
-    return [number % 9 * 0.5, float(number % 5), number % 7 * 0.25, coverage] if coverage > 0 else [0, 0, 0, 0]
+    return [0.0 if everywhere >= 0 else number % 9 * 0.5, float(number % 5), number % 7 * 0.25, coverage] if coverage > 0 else [0, 0, 0, 0]
 
 
 def sampleColor(uv, level, levels, coverage):
@@ -149,15 +151,15 @@ def sampleColor(uv, level, levels, coverage):
     return [[x / sums[3] for x in sums[:3]] if valid else [0, 0, 0], min(sums[3], 1), valid, 0]
 
 
-def reduceColor(x, y, level, coverage, isEmpty):
+def reduceColor(x, y, level, coverage, isEmpty, isTall):
     """By pixels: each finer cell counts as often as it has pixels. A level without cells counts as one cell."""
-    finer, size = [1, 1] if isEmpty else colorSize(level), colorSize(level + 1)
+    finer, size = [1, 1] if isEmpty else colorSize(level, isTall), colorSize(level + 1, isTall)
     width = lambda c, n, l, pixels: pixels - (c << l) if c == n - 1 else 1 << l
     end = [finer[0] if x == size[0] - 1 else 2 * x + 2, finer[1] if y == size[1] - 1 else 2 * y + 2]
     sums, pixels = [0.0] * 4, 0
     for j in range(2 * y, end[1]):
         for i in range(2 * x, end[0]):
-            area = width(i, finer[0], level, 11) * width(j, finer[1], level, 6)
+            area = width(i, finer[0], level, 6 if isTall else 11) * width(j, finer[1], level, 11 if isTall else 6)
             c = colorCell(i, j, level, coverage)
             pixels += area
             for k in range(3):
@@ -168,9 +170,9 @@ def reduceColor(x, y, level, coverage, isEmpty):
 
 def colorTables():
     places = [[0.5, 0.5], [0.1, 0.8], [0.93, 0.2], [0, 0], [1, 1], [-0.5, 0.3], [0.3, 1.5], [0.03, 0.97], [0.62, 0.37], [0.27, 0.11], [kNaN, 0.4]]
-    cells = [[x, y, l, -1, 0] for l in (0, 1, 2) for y in range(colorSize(l + 1)[1]) for x in range(colorSize(l + 1)[0])]
-    # No pixel is valid; the finer level has no cell, a hook that breaks its word.
-    cells += [[1, 1, 0, 0, 0], [0, 0, 3, -1, 1]]
+    cells = [[x, y, l, -1, 0, tall] for tall in (0, 1) for l in (0, 1, 2) for y in range(colorSize(l + 1, tall)[1]) for x in range(colorSize(l + 1, tall)[0])]
+    # No pixel is valid; the finer level has no cell, a hook that breaks its word; valid pixels without red.
+    cells += [[1, 1, 0, 0, 0, 0], [0, 0, 3, -1, 1, 0], [1, 1, 0, 0.5, 0, 0]]
     # The smallest coverage itself, at the middle of the one cell of level 3, where the weights are 1 and 0 and nothing rounds.
     faint = [[[0.5, 0.5], 3, 4, c] for c in (0, 0.5e-6, 1e-6, 2e-6, 5e-4)]
     # A flat exponent shows what becomes of the smallest roughness.
@@ -179,8 +181,8 @@ def colorTables():
         Function("Sample", "uv:2 level:1 n:i c:1", ["s.color.x", "s.color.y", "s.color.z", "s.coverage", "number(s.isValid)", "number(askedOutside)"],
                  faint + [[uv, level, n, -1] for uv in places for level, n in ((0, 4), (0.5, 4), (1, 4), (1.25, 4), (2.75, 4), (3, 4), (9, 4), (-1, 4), (kNaN, 4), (2.5, 2), (1, 0), (0.3, 1))], sampleColor,
                  "tableLevels = max(n, 1);\ntableCoverage = c;\nColorSample s = sampleColorPyramid(uv, level, n);", absolute=4e-6),
-        Function("Reduce", "x:i y:i l:i f:1 empty:b", ["c.x", "c.y", "c.z", "c.w", "number(askedOutside)"], cells, reduceColor,
-                 "tableLevel = l;\ntableCoverage = f;\ntableIsEmpty = empty;\nvec4 c = reduceColorPyramidCell(ivec2(x, y));", absolute=4e-6),
+        Function("Reduce", "x:i y:i l:i f:1 empty:b tall:b", ["c.x", "c.y", "c.z", "c.w", "number(askedOutside)"], cells, reduceColor,
+                 "tableLevel = l;\ntableCoverage = f;\ntableIsEmpty = empty;\ntableIsTall = tall;\nvec4 c = reduceColorPyramidCell(ivec2(x, y));", absolute=4e-6),
         Function("Level", "r:1 e:1 n:i", ["computeColorLevel(r, e, n)"], rough, lambda r, e, n: [clamp01(r) ** e * max(n - 1, 0)], relative=2e-5),
     ], [], copyOf("crossray/project/color_pyramid.glsl", ["CROSSRAY_REDUCE_COLOR_PYRAMID"]) + kColors)
 
