@@ -109,9 +109,9 @@ void checkInfinite(int tableRow)
 OwnHit traceOwn(OwnRay ray)
 {
     int row = ray.pixel.y;
-    if (row >= 0 && row <= 115) checkBox(row);
-    if (row >= 116 && row <= 127) checkOnFace(row);
-    if (row >= 128 && row <= 172) checkSphere(row);
-    if (row >= 173 && row <= 186) checkInfinite(row);
+    if (row >= 0 && row <= 117) checkBox(row);
+    if (row >= 118 && row <= 129) checkOnFace(row);
+    if (row >= 130 && row <= 175) checkSphere(row);
+    if (row >= 176 && row <= 189) checkInfinite(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }
