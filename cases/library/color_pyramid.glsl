@@ -34,35 +34,49 @@ float number(bool condition) { return condition ? 1.0 : 0.0; }
 #undef CROSSRAY_PROJECT_COLOR_PYRAMID_GLSL
 #include "crossray/project/color_pyramid.glsl"
 
-ivec2 colorPyramidSize(int level) { return max(ivec2(11 >> level, 6 >> level), ivec2(1)); }
+int tableLevels = 4;
+float tableCoverage = -1.0; // of all cells, from 0 on
+bool askedOutside = false; // for a cell or a level that there is not
+bool tableIsTall = false;
+ivec2 colorImageSize() { return tableIsTall ? ivec2(6, 11) : ivec2(11, 6); }
+ivec2 colorPyramidSize(int level) { return max(ivec2(colorImageSize().x >> level, colorImageSize().y >> level), ivec2(1)); }
 
 vec4 fetchColorPyramid(ivec2 cell, int level)
 {
+    ivec2 size = colorPyramidSize(level);
+    bool isCell = min(cell.x, cell.y) >= 0 && cell.x < size.x && cell.y < size.y;
+    askedOutside = askedOutside || !isCell || level < 0 || level >= tableLevels;
     int number = cell.x * 3 + cell.y * 5 + level * 7;
-    float coverage = float(number % 4) * 0.25;
-    return coverage > 0.0 ? vec4(float(number % 9) * 0.5, float(number % 5), float(number % 7) * 0.25, coverage) : vec4(0.0);
+    float coverage = tableCoverage >= 0.0 ? tableCoverage : float(number % 4) * 0.25;
+    float red = tableCoverage >= 0.0 ? 0.0 : float(number % 9) * 0.5;
+    return coverage > 0.0 ? vec4(red, float(number % 5), float(number % 7) * 0.25, coverage) : vec4(0.0);
 }
 
 int tableLevel = 0;
+bool tableIsEmpty = false;
 vec4 fetchFinerColor(ivec2 cell) { return fetchColorPyramid(cell, tableLevel); }
-ivec2 finerColorSize() { return colorPyramidSize(tableLevel); }
+ivec2 finerColorSize() { return tableIsEmpty ? ivec2(0) : colorPyramidSize(tableLevel); }
 int finerColorLevel() { return tableLevel; }
-ivec2 colorImageSize() { return ivec2(11, 6); }
 
 void checkSample(int tableRow)
 {
     vec3 d0 = ownNormalWS(ivec2(1, tableRow));
     vec3 d1 = ownNormalWS(ivec2(2, tableRow));
     vec3 d2 = ownNormalWS(ivec2(3, tableRow));
+    vec3 d3 = ownNormalWS(ivec2(4, tableRow));
     vec2 uv = vec2(d0.x, d0.y);
     float level = d0.z;
     int n = int(d1.x);
+    float c = d1.y;
+    tableLevels = max(n, 1);
+    tableCoverage = c;
     ColorSample s = sampleColorPyramid(uv, level, n);
-    check(1, s.color.x, d1.y, 1e-05, 4e-06);
-    check(2, s.color.y, d1.z, 1e-05, 4e-06);
-    check(3, s.color.z, d2.x, 1e-05, 4e-06);
-    check(4, s.coverage, d2.y, 1e-05, 4e-06);
-    check(5, number(s.isValid), d2.z, 1e-05, 4e-06);
+    check(1, s.color.x, d1.z, 1e-05, 4e-06);
+    check(2, s.color.y, d2.x, 1e-05, 4e-06);
+    check(3, s.color.z, d2.y, 1e-05, 4e-06);
+    check(4, s.coverage, d2.z, 1e-05, 4e-06);
+    check(5, number(s.isValid), d3.x, 1e-05, 4e-06);
+    check(6, number(askedOutside), d3.y, 1e-05, 4e-06);
 }
 
 void checkReduce(int tableRow)
@@ -70,15 +84,23 @@ void checkReduce(int tableRow)
     vec3 d0 = ownNormalWS(ivec2(1, tableRow));
     vec3 d1 = ownNormalWS(ivec2(2, tableRow));
     vec3 d2 = ownNormalWS(ivec2(3, tableRow));
+    vec3 d3 = ownNormalWS(ivec2(4, tableRow));
     int x = int(d0.x);
     int y = int(d0.y);
     int l = int(d0.z);
+    float f = d1.x;
+    bool empty = d1.y > 0.5;
+    bool tall = d1.z > 0.5;
     tableLevel = l;
+    tableCoverage = f;
+    tableIsEmpty = empty;
+    tableIsTall = tall;
     vec4 c = reduceColorPyramidCell(ivec2(x, y));
-    check(101, c.x, d1.x, 1e-05, 4e-06);
-    check(102, c.y, d1.y, 1e-05, 4e-06);
-    check(103, c.z, d1.z, 1e-05, 4e-06);
-    check(104, c.w, d2.x, 1e-05, 4e-06);
+    check(101, c.x, d2.x, 1e-05, 4e-06);
+    check(102, c.y, d2.y, 1e-05, 4e-06);
+    check(103, c.z, d2.z, 1e-05, 4e-06);
+    check(104, c.w, d3.x, 1e-05, 4e-06);
+    check(105, number(askedOutside), d3.y, 1e-05, 4e-06);
 }
 
 void checkLevel(int tableRow)
@@ -94,8 +116,8 @@ void checkLevel(int tableRow)
 OwnHit traceOwn(OwnRay ray)
 {
     int row = ray.pixel.y;
-    if (row >= 0 && row <= 131) checkSample(row);
-    if (row >= 132 && row <= 149) checkReduce(row);
-    if (row >= 150 && row <= 219) checkLevel(row);
+    if (row >= 0 && row <= 136) checkSample(row);
+    if (row >= 137 && row <= 175) checkReduce(row);
+    if (row >= 176 && row <= 247) checkLevel(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

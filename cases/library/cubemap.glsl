@@ -73,7 +73,7 @@ OwnHit traceOwn(OwnRay ray)
     int row = ray.pixel.y;
     if (row >= 0 && row <= 27) checkPlace(row);
     if (row >= 28 && row <= 35) checkPoint(row);
-    if (row >= 36 && row <= 203) checkDirection(row);
-    if (row >= 204 && row <= 387) checkFold(row);
+    if (row >= 36 && row <= 227) checkDirection(row);
+    if (row >= 228 && row <= 419) checkFold(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

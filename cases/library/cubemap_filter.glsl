@@ -24,11 +24,16 @@ float number(bool condition) { return condition ? 1.0 : 0.0; }
 #undef CROSSRAY_PROBE_CUBEMAP_FILTER_GLSL
 #include "crossray/probe/cubemap_filter.glsl"
 
-int probeCubeSize(int cubemap) { return 4; }
+int probeCubeSize(int cubemap) { return cubemap == 4 ? 8 : 4; }
 int probeCubeLevelCount(int cubemap) { return cubemap == 2 ? 0 : cubemap == 3 ? 4 : 3; }
 
+bool askedOutside = false; // for a face, a texel or a level that there is not
 vec3 fetchProbeTexel(int cubemap, int face, ivec2 texel, int level)
 {
+    int last = max((probeCubeSize(cubemap) >> level) - 1, 0);
+    bool isTexel = min(texel.x, texel.y) >= 0 && max(texel.x, texel.y) <= last;
+    bool isThere = isTexel && face >= 0 && face <= 5 && level >= 0 && level < max(probeCubeLevelCount(cubemap), 1);
+    askedOutside = askedOutside || !isThere;
     int number = face * 7 + texel.x * 3 + texel.y * 5 + level * 11;
     vec3 radiance = vec3(float(number % 13), float(number % 7) + 0.5, float(number % 5)) * 0.25;
     int kind = cubemap == 1 ? number % 6 : 0;
@@ -50,11 +55,12 @@ void checkSample(int tableRow)
     check(1, r.x, d1.z, 4e-06, 4e-06);
     check(2, r.y, d2.x, 4e-06, 4e-06);
     check(3, r.z, d2.y, 4e-06, 4e-06);
+    check(4, number(askedOutside), d2.z, 4e-06, 4e-06);
 }
 
 OwnHit traceOwn(OwnRay ray)
 {
     int row = ray.pixel.y;
-    if (row >= 0 && row <= 234) checkSample(row);
+    if (row >= 0 && row <= 250) checkSample(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

@@ -118,7 +118,7 @@ OwnHit traceOwn(OwnRay ray)
     int row = ray.pixel.y;
     if (row >= 0 && row <= 252) checkParallax(row);
     if (row >= 253 && row <= 253) checkBeyond(row);
-    if (row >= 254 && row <= 437) checkBoxProjection(row);
-    if (row >= 438 && row <= 486) checkShapes(row);
+    if (row >= 254 && row <= 455) checkBoxProjection(row);
+    if (row >= 456 && row <= 504) checkShapes(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

@@ -1,18 +1,23 @@
 """Tables of the files that read by hooks, whose hooks are formulas here; see tables.py."""
 import math
-from tables import Function, add, clamp01, copyOf, dot, flat, isNumber, kInf, kNaN, mul, sub, unit, write
+from tables import Function, add, clamp01, copyOf, dot, flat, isNumber, kInf, kNaN, mul, single, sub, unit, write
 from tables_core import kFar, kNear, kSize, kSlope, kViews, linearOf, isCleared, toViewDir
 from tables_project import chooseSlope, cubePlace, fold, normalGradient
 
 # ------------------------------------------------------------------------------------------ probe/cubemap_filter.glsl
 
-# Cubemap 0: 4 texels a side and 3 levels; 1: the same texels, of which some are no radiance; 2: no level at all; 3: one level more.
+# Cubemap 0: 4 texels a side and 3 levels; 1: the same texels, of which some are no radiance; 2: no level at all; 3: one level more; 4: 8 texels a side.
 kTexels = """
-int probeCubeSize(int cubemap) { return 4; }
+int probeCubeSize(int cubemap) { return cubemap == 4 ? 8 : 4; }
 int probeCubeLevelCount(int cubemap) { return cubemap == 2 ? 0 : cubemap == 3 ? 4 : 3; }
 
+bool askedOutside = false; // for a face, a texel or a level that there is not
 vec3 fetchProbeTexel(int cubemap, int face, ivec2 texel, int level)
 {
+    int last = max((probeCubeSize(cubemap) >> level) - 1, 0);
+    bool isTexel = min(texel.x, texel.y) >= 0 && max(texel.x, texel.y) <= last;
+    bool isThere = isTexel && face >= 0 && face <= 5 && level >= 0 && level < max(probeCubeLevelCount(cubemap), 1);
+    askedOutside = askedOutside || !isThere;
     int number = face * 7 + texel.x * 3 + texel.y * 5 + level * 11;
     vec3 radiance = vec3(float(number % 13), float(number % 7) + 0.5, float(number % 5)) * 0.25;
     int kind = cubemap == 1 ? number % 6 : 0;
@@ -43,7 +48,7 @@ def texel(cubemap, face, x, y, level):
 
 def bilinear(cubemap, face, u, v, level):
     """Four texels; where two edges meet the one beyond the corner is the mean of the other three."""
-    n = max(4 >> level, 1)
+    n = max((8 if cubemap == 4 else 4) >> level, 1)
     x, y = u * n - 0.5, v * n - 0.5
     bx, by = math.floor(x), math.floor(y)
     taps = []
@@ -77,44 +82,55 @@ def cubemapFilterTables():
     edges = [[1, 0.95, 0.1], [1, 0.1, 0.95], [-1, -0.9, 0.3], [0.2, 1, 0.93], [-0.97, 1, 0.1], [0.9, -1, 0.2], [0.1, 0.94, 1], [0.92, -0.2, 1], [-0.9, 0.15, -1], [0.1, -0.93, -1], [0.2, -1, -0.9], [-1, 0.1, -0.96]]
     corners = [[s * 1.0, t * 0.93, r * 0.9] for s in (-1, 1) for t in (-1, 1) for r in (-1, 1)] + [[0.9, 1, 0.95], [-0.9, -1, 0.92], [0.93, -0.91, 1], [-0.95, 0.9, -1]]
     rows = [[0, d, level] for d in inside + edges + corners for level in (0, 1, 0.25, 1.5)] + [[0, d, level] for d in inside[:3] + corners[:2] for level in (2, 3, 1.75, -1, kNaN, kInf)]
+    rows += [[4, d, 0.25] for d in edges[:4] + corners]
     rows += [[3, d, level] for d in inside[:3] + corners[:2] for level in (2, 2.5, 3, 4)]
     rows += [[c, d, level] for c in (1, 2) for d in inside + edges[:4] for level in (0, 0.5, 2)] + [[0, d, 0.5] for d in ([0, 0, 0], [0, 0, 5], [-3, 0, 0], [0.5, 1, 0], [0, -0.5, 1])]
     write("cubemap_filter", "A cubemap is read linearly within faces, across their edges, at corners and between levels.", [
-        Function("Sample", "c:i d:3 level:1", ["r.x", "r.y", "r.z"], rows, sampleCube, "vec3 r = sampleProbeCubemap(c, d, level);", relative=4e-6, absolute=4e-6),
+        Function("Sample", "c:i d:3 level:1", ["r.x", "r.y", "r.z", "number(askedOutside)"], rows, lambda *row: sampleCube(*row) + [0], "vec3 r = sampleProbeCubemap(c, d, level);", relative=4e-6, absolute=4e-6),
     ], [], copyOf("crossray/probe/cubemap_filter.glsl") + kTexels)
 
 
 # ----------------------------------------------------------------------------------------- project/color_pyramid.glsl
 
-# An image of 11 x 6 pixels; level 1 has 5 x 3 cells, level 2 2 x 1, level 3 one. A cell's colour and coverage are formulas.
+# An image of 11 x 6 pixels; level 1 has 5 x 3 cells, level 2 2 x 1, level 3 one. Or of 6 x 11 pixels. A cell's colour and coverage are
+# formulas, or all cells have one coverage, and no red.
 kColors = """
-ivec2 colorPyramidSize(int level) { return max(ivec2(11 >> level, 6 >> level), ivec2(1)); }
+int tableLevels = 4;
+float tableCoverage = -1.0; // of all cells, from 0 on
+bool askedOutside = false; // for a cell or a level that there is not
+bool tableIsTall = false;
+ivec2 colorImageSize() { return tableIsTall ? ivec2(6, 11) : ivec2(11, 6); }
+ivec2 colorPyramidSize(int level) { return max(ivec2(colorImageSize().x >> level, colorImageSize().y >> level), ivec2(1)); }
 
 vec4 fetchColorPyramid(ivec2 cell, int level)
 {
+    ivec2 size = colorPyramidSize(level);
+    bool isCell = min(cell.x, cell.y) >= 0 && cell.x < size.x && cell.y < size.y;
+    askedOutside = askedOutside || !isCell || level < 0 || level >= tableLevels;
     int number = cell.x * 3 + cell.y * 5 + level * 7;
-    float coverage = float(number % 4) * 0.25;
-    return coverage > 0.0 ? vec4(float(number % 9) * 0.5, float(number % 5), float(number % 7) * 0.25, coverage) : vec4(0.0);
+    float coverage = tableCoverage >= 0.0 ? tableCoverage : float(number % 4) * 0.25;
+    float red = tableCoverage >= 0.0 ? 0.0 : float(number % 9) * 0.5;
+    return coverage > 0.0 ? vec4(red, float(number % 5), float(number % 7) * 0.25, coverage) : vec4(0.0);
 }
 
 int tableLevel = 0;
+bool tableIsEmpty = false;
 vec4 fetchFinerColor(ivec2 cell) { return fetchColorPyramid(cell, tableLevel); }
-ivec2 finerColorSize() { return colorPyramidSize(tableLevel); }
+ivec2 finerColorSize() { return tableIsEmpty ? ivec2(0) : colorPyramidSize(tableLevel); }
 int finerColorLevel() { return tableLevel; }
-ivec2 colorImageSize() { return ivec2(11, 6); }
 """
 
 
-def colorSize(level): return [max(11 >> level, 1), max(6 >> level, 1)]
+def colorSize(level, isTall=False): return [max((6 if isTall else 11) >> level, 1), max((11 if isTall else 6) >> level, 1)]
 
 
-def colorCell(x, y, level):
+def colorCell(x, y, level, everywhere):
     number = x * 3 + y * 5 + level * 7
-    coverage = number % 4 * 0.25
-    return [number % 9 * 0.5, float(number % 5), number % 7 * 0.25, coverage] if coverage > 0 else [0, 0, 0, 0]
+    coverage = everywhere if everywhere >= 0 else number % 4 * 0.25
+    return [0.0 if everywhere >= 0 else number % 9 * 0.5, float(number % 5), number % 7 * 0.25, coverage] if coverage > 0 else [0, 0, 0, 0]
 
 
-def sampleColor(uv, level, levels):
+def sampleColor(uv, level, levels, coverage):
     uv = [clamp01(x) for x in uv]
     last = max(levels, 1) - 1
     level = min(level, last) if level > 0 else 0
@@ -127,40 +143,46 @@ def sampleColor(uv, level, levels):
         for j in (0, 1):
             for i in (0, 1):
                 share = (p[0] - b[0] if i else 1 - p[0] + b[0]) * (p[1] - b[1] if j else 1 - p[1] + b[1]) * w
-                c = colorCell(min(max(b[0] + i, 0), size[0] - 1), min(max(b[1] + j, 0), size[1] - 1), l)
+                c = colorCell(min(max(b[0] + i, 0), size[0] - 1), min(max(b[1] + j, 0), size[1] - 1), l, coverage)
                 for k in range(3):
                     sums[k] += c[k] * c[3] * share
                 sums[3] += c[3] * share
-    valid = sums[3] >= 1e-6
-    return [[x / sums[3] for x in sums[:3]] if valid else [0, 0, 0], min(sums[3], 1), valid]
+    valid = sums[3] >= single(1e-6)
+    return [[x / sums[3] for x in sums[:3]] if valid else [0, 0, 0], min(sums[3], 1), valid, 0]
 
 
-def reduceColor(x, y, level):
-    """By pixels: each finer cell counts as often as it has pixels."""
-    finer, size = colorSize(level), colorSize(level + 1)
+def reduceColor(x, y, level, coverage, isEmpty, isTall):
+    """By pixels: each finer cell counts as often as it has pixels. A level without cells counts as one cell."""
+    finer, size = [1, 1] if isEmpty else colorSize(level, isTall), colorSize(level + 1, isTall)
     width = lambda c, n, l, pixels: pixels - (c << l) if c == n - 1 else 1 << l
     end = [finer[0] if x == size[0] - 1 else 2 * x + 2, finer[1] if y == size[1] - 1 else 2 * y + 2]
     sums, pixels = [0.0] * 4, 0
     for j in range(2 * y, end[1]):
         for i in range(2 * x, end[0]):
-            area = width(i, finer[0], level, 11) * width(j, finer[1], level, 6)
-            c = colorCell(i, j, level)
+            area = width(i, finer[0], level, 6 if isTall else 11) * width(j, finer[1], level, 11 if isTall else 6)
+            c = colorCell(i, j, level, coverage)
             pixels += area
             for k in range(3):
                 sums[k] += c[k] * c[3] * area
             sums[3] += c[3] * area
-    return [[s / sums[3] for s in sums[:3]], sums[3] / pixels] if sums[3] > 0 else [0, 0, 0, 0]
+    return [[s / sums[3] for s in sums[:3]], sums[3] / pixels, 0] if sums[3] > 0 else [0, 0, 0, 0, 0]
 
 
 def colorTables():
     places = [[0.5, 0.5], [0.1, 0.8], [0.93, 0.2], [0, 0], [1, 1], [-0.5, 0.3], [0.3, 1.5], [0.03, 0.97], [0.62, 0.37], [0.27, 0.11], [kNaN, 0.4]]
-    cells = [[x, y, l] for l in (0, 1, 2) for y in range(colorSize(l + 1)[1]) for x in range(colorSize(l + 1)[0])]
-    rough = [[r, e, n] for r in (0, 0.25, 0.5, 1, 1.5, -1, kNaN) for e in (0.8, 1.3) for n in (-1, 0, 1, 2, 4)]
+    cells = [[x, y, l, -1, 0, tall] for tall in (0, 1) for l in (0, 1, 2) for y in range(colorSize(l + 1, tall)[1]) for x in range(colorSize(l + 1, tall)[0])]
+    # No pixel is valid; the finer level has no cell, a hook that breaks its word; valid pixels without red.
+    cells += [[1, 1, 0, 0, 0, 0], [0, 0, 3, -1, 1, 0], [1, 1, 0, 0.5, 0, 0]]
+    # The smallest coverage itself, at the middle of the one cell of level 3, where the weights are 1 and 0 and nothing rounds.
+    faint = [[[0.5, 0.5], 3, 4, c] for c in (0, 0.5e-6, 1e-6, 2e-6, 5e-4)]
+    # A flat exponent shows what becomes of the smallest roughness.
+    rough = [[r, e, n] for r in (0, 0.25, 0.5, 1, 1.5, -1, kNaN) for e in (0.8, 1.3) for n in (-1, 0, 1, 2, 4)] + [[r, 0.05, 4] for r in (0, 1e-29)]
     write("color_pyramid", "A rough look-up mixes four cells of two levels by their coverage, and a cell has what its valid pixels have.", [
-        Function("Sample", "uv:2 level:1 n:i", ["s.color.x", "s.color.y", "s.color.z", "s.coverage", "number(s.isValid)"],
-                 [[uv, level, n] for uv in places for level, n in ((0, 4), (0.5, 4), (1, 4), (1.25, 4), (2.75, 4), (3, 4), (9, 4), (-1, 4), (kNaN, 4), (2.5, 2), (1, 0), (0.3, 1))], sampleColor,
-                 "ColorSample s = sampleColorPyramid(uv, level, n);", absolute=4e-6),
-        Function("Reduce", "x:i y:i l:i", ["c.x", "c.y", "c.z", "c.w"], cells, reduceColor, "tableLevel = l;\nvec4 c = reduceColorPyramidCell(ivec2(x, y));", absolute=4e-6),
+        Function("Sample", "uv:2 level:1 n:i c:1", ["s.color.x", "s.color.y", "s.color.z", "s.coverage", "number(s.isValid)", "number(askedOutside)"],
+                 faint + [[uv, level, n, -1] for uv in places for level, n in ((0, 4), (0.5, 4), (1, 4), (1.25, 4), (2.75, 4), (3, 4), (9, 4), (-1, 4), (kNaN, 4), (2.5, 2), (1, 0), (0.3, 1))], sampleColor,
+                 "tableLevels = max(n, 1);\ntableCoverage = c;\nColorSample s = sampleColorPyramid(uv, level, n);", absolute=4e-6),
+        Function("Reduce", "x:i y:i l:i f:1 empty:b tall:b", ["c.x", "c.y", "c.z", "c.w", "number(askedOutside)"], cells, reduceColor,
+                 "tableLevel = l;\ntableCoverage = f;\ntableIsEmpty = empty;\ntableIsTall = tall;\nvec4 c = reduceColorPyramidCell(ivec2(x, y));", absolute=4e-6),
         Function("Level", "r:1 e:1 n:i", ["computeColorLevel(r, e, n)"], rough, lambda r, e, n: [clamp01(r) ** e * max(n - 1, 0)], relative=2e-5),
     ], [], copyOf("crossray/project/color_pyramid.glsl", ["CROSSRAY_REDUCE_COLOR_PYRAMID"]) + kColors)
 

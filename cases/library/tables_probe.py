@@ -60,7 +60,11 @@ def proxySphere(origin, direction, center, radius):
     disc = b * b - (dot(o, o) - radius * radius)
     if disc < -1e-6 * radius * radius:
         return miss(origin, 6)
+    if radius * radius > 3.4e38:
+        return miss(origin, kDegenerateRay)  # no float holds the square: the answer stays finite
     leave = math.sqrt(max(disc, 0)) - b
+    if radius < length(o) <= radius * (1 + 1e-5):
+        leave = max(leave, 0)  # an origin on the sphere to the tolerance is inside
     return hitAt(origin, d, leave) if leave >= -1e-5 * radius else miss(origin, 6)
 
 
@@ -98,13 +102,31 @@ def proxyTables():
             boxes += [[far, across, [0, 0, 0], 0, half]]
     boxes += [[[-8, 0, 0], [1, 1, 0], [0, 0, 0], 0, [3, 4.5, 4]], [[-8, 0, 0], [1, 1, 0], [0, 0, 0], 0, [3, 5.5, 4]], [[0, 0, 0], [1e-8, 1e-8, 1], [0, 0, 0], 0, [1, 1, 1e9]],
               [[0.5, 0, 0], [2e-7, 0, 1], [0, 0, 0], 0, [1, 1, 1e8]], [[0.5, 0, 0], [5e-8, 0, 1], [0, 0, 0], 0, [1, 1, 1e8]]]
+    # What is beyond all distances is met nowhere; along a face of a plane; past an edge within the tolerance and beyond it.
+    boxes += [[[0, 0, 0], [0, 0, 1], [0, 0, 0], 0, h] for h in ([1, 1, 5e28], [1, 1, 1e29], [1, 1, 1e31])] + [[[0, 0, 0], [0, 1, 0], [0, 0, 0], 0, [0, 5, 5]], [[0, 0, 0], [0, 0, 1], [0, 0, 0], 0, [5, 0, 5]]]
+    boxes += [[[-2, 0, 0], [1, 1, 0], [0, 0, 0], 0, [1, h, 1]] for h in (1 - 4e-6, 1, 1 - 3e-5)]
+    boxes += [[o, [0, 1, 1], [0, 0, 0], 0, [1, *h]] for h in (1 - 4e-6, 1 - 3e-5) for o, h in (([0, -2, 0], [1, h]), ([0, 0, -2], [h, 1]))]
+    # The hit lies on its face to the last bits, though the sum of origin and way is half a millimetre beside it; where it is the origin, it
+    # stays there.
+    exact = []
+    for k in range(3):
+        for s in (-1, 1):
+            far, along, beyond = [0.25, -0.5, 0.125], [0, 0, 0], [0.25, -0.5, 0.125]
+            far[k], along[k], beyond[k] = -s * (8191 + 2 ** -11), s, s * 1024 * (1 + 2 ** -18)
+            exact += [[far, along, [0, 0, 0], 0, half], [beyond, along, [0, 0, 0], 0, [1024] * 3]]
     spheres = [[o, d, center, 5] for o, d in kRays + kOutside + kBad] + [[[0, 0, 0], [1, 2, 3], [0, 0, 0], r] for r in (0, -1, kNaN, kInf, 2)]
     spheres += [[[3, 0, 0], [1, 0, 0], [0, 0, 0], 3], [[3, 0, 0], [-1, 0, 0], [0, 0, 0], 3], [[3, 0, 0], [0, 1, 0], [0, 0, 0], 3], [[0, 3, 0], [1, 1, 0], [0, 0, 0], 3],
                 [[0, 0, -3], [0, 1, 1], [0, 0, 0], 3], [[0, 0, -3], [0, 1, -1], [0, 0, 0], 3], [[-7, 3.5, 0], [1, 0, 0], [0, 0, 0], 3], [[-7, 2.5, 0], [1, 0, 0], [0, 0, 0], 3],
                 [[7, 2.5, 0], [1, 0, 0], [0, 0, 0], 3], [[0, 1, 0], [0, 1, 0], [0, 0, 0], 3], [[2, -1, 0.5], [5, 1, 0], [0, 0, 0], 3], [[1, 0, 0], [1, 0, 0], [0, 0, 0], 1.000005]]
+    # A ray that touches, that passes within the tolerance, and just beyond it; an origin within the tolerance of the sphere, from which the
+    # ray leaves at a flat angle; one near a large sphere, where the difference of the roots cancels; a square that no float holds.
+    spheres += [[[-7, 3, 0], [1, 0, 0], [0, 0, 0], 3], [[-200, 0, 100.00003], [1, 0, 0], [0, 0, 0], 100], [[-7, 0, 3.00015], [1, 0, 0], [0, 0, 0], 3],
+                [[1 + 5e-6, 0, 0], [0.005, 1, 0], [0, 0, 0], 1], [[100.0005, 0, 0], [1, 0, 0], [0, 0, 0], 100], [[8191.5, 0, 0], [3, 4, 0], [0, 0, 0], 8192], [[0, 0, 0], [1, 2, 3], [0, 0, 0], 1e20],
+                [[8192, 0, 0], [0.9, 8192, 0], [0, 0, 0], 8192]]  # and one on it, along which it would be noise
     out = ["hit.positionWS.x", "hit.positionWS.y", "hit.positionWS.z", "hit.distance", "number(hit.hit)", "float(hit.reason)"]
     write("proxy", "A ray meets a box or a sphere from inside where its far face is, and every ray that meets none says why.", [
         Function("Box", "o:3 d:3 c:3 turned:b h:3", out, boxes, proxyBox, "ProxyHit hit = projectProxyBox(o, d, c, tableTurn(turned), h);", absolute=6e-5, relative=2e-5),
+        Function("OnFace", "o:3 d:3 c:3 turned:b h:3", out, exact, proxyBox, "ProxyHit hit = projectProxyBox(o, d, c, tableTurn(turned), h);", relative=5e-7),
         Function("Sphere", "o:3 d:3 c:3 r:1", out, spheres, proxySphere, "ProxyHit hit = projectProxySphere(o, d, c, r);", absolute=3e-5, relative=2e-5),
         Function("Infinite", "o:3 d:3", out, kRays + kBad, proxyInfinite, "ProxyHit hit = projectProxyInfinite(o, d);"),
     ], ["crossray/project/proxy.glsl"], kTurn)
@@ -144,7 +166,7 @@ def boxProjection(p, d, low, high, capture):
         return [u, 0, 0]
     t = max(ahead, 0)
     hit = add(p, mul(u, t))
-    if not isNumber(hit) or min(sub(hit, low)) < -margin or min(sub(high, hit)) < -margin:
+    if not sum(abs(x) for x in hit) < 1e37 or min(sub(hit, low)) < -margin or min(sub(high, hit)) < -margin:
         return [u, 0, 0]
     return [unit(sub(hit, capture[:3]), u), t, 1]
 
@@ -167,6 +189,13 @@ def parallaxTables():
     boxes += [[[0.5, 0.5, 0.5], [1, 2, 3], l, h, c] for l, h, c in [(low, high, [0, 0, 0, 0]), (low, high, [0, 0, 0, -1]), (low, high, [0, 0, 0, kNaN]), (low, high, [0, 0, 0, 0.5]),
               (low, high, [kNaN, 0, 0, 1]), (low, high, [0, kInf, 0, 1]), (high, low, [0, 0, 0, 1]), (low, [2, 3, kInf], [0, 0, 0, 1]),
               ([-3, -1, 5], high, [0, 0, 0, 1]), ([-3, 4, -2], high, [0, 0, 0, 1]), ([3, -1, -2], high, [0, 0, 0, 1])]]
+    # A box that is one point, which the ray starts at; an end that is not finite; just beyond a large box's face, where the answer is the
+    # position; a point that is together no number, though each of its parts is.
+    boxes += [[[0.5, 0.25, 1], [1, 2, 3], [0.5, 0.25, 1], [0.5, 0.25, 1], [0, 0, 0, 1]], [[0.5, 0.5, 0.5], [1, 2, 3], [-3, -kInf, -2], high, [0, 0, 0, 1]],
+              [[1024 * (1 + 2 ** -18), 1, 2], [1, 0, 0], [-1024] * 3, [1024] * 3, [0.5, 0.25, 1, 1]], [[-9e36, 9e36, 0], [0, 0, 1], [-9e36, 0, -1], [0, 9e36, 1], [0, 0, 0, 1]]]
+    # A box beyond the origin; one whose ends are swapped by less than the margin; what is beyond all distances.
+    boxes += [[[-2, 0, 0.5], [1, 2, 3], [-3, -4, -5], [-1, 2, 3], [0, 0, 0, 1]], [[0.5, 0.5, 1], [1, 2, 0], [-3, -1, 1.00001], [2, 3, 1], [0, 0, 0, 1]]]
+    boxes += [[[0, 0, 0], [0, 0, 1], [-far] * 3, [far] * 3, [1, 0, 0, 1]] for far in (5e28, 1e29, 1e31)]
     boxes += [[[0.5, 1, 0], [1, 0, 2], [-3, 1, -2], [2, 1, 4], [0, 0, 0, 1]], [[0, 1, 2], [0, 1, 0], low, high, [0, 3, 2, 1]]]
     for k in range(3):
         for face, s in ((low, -1), (high, 1)):

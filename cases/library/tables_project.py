@@ -191,13 +191,15 @@ def cubemapTables():
                   [1, 1, 1], [-1, -1, -1], [1, 1, 0.5], [1, -1, 0.5], [1, 0.5, 1], [0.5, 1, 1], [0.5, -1, -1], [-1, 0.5, -1], [0, 0, 0], [kNaN, 0, 1], [0, kInf, 0], [1e-20, 0, 0], [0, -1e20, 3e19],
                   [-1, 1, -0.25], [-1, -0.5, 1], [0.25, 1, -1]]
     places = [[0.5, 0.5], [0.1, 0.2], [0.9, 0.3], [0, 1], [1, 0], [-0.25, 0.3], [1.25, 0.7], [0.3, -0.25], [0.7, 1.25], [-0.1, -0.2], [1.2, 1.1], [-0.3, 1.2], [1.1, -0.4], [1.6, 0.4], [-0.8, 0.4],
-              [0.4, 1.9], [0.4, -1.2], [2.5, 0.4], [0.25, 3], [kNaN, 0.5], [0.5, kInf], [1.2, 1.2], [-0.25, 1.25]]
+              [0.4, 1.9], [0.4, -1.2], [2.5, 0.4], [0.25, 3], [kNaN, 0.5], [0.5, kInf], [1.2, 1.2], [-0.25, 1.25],
+              [2.2, 2.8]]  # both excesses count as one face, so that x wins
     faces = range(-1, 7)
     write("cubemap", "A direction's face and place are the specifications' tables, and beyond an edge they go on upon the neighbour.", [
         Function("Place", "d:3", ["float(c.face)", "c.uv.x", "c.uv.y", "number(c.valid)"], [[d] for d in directions], cubePlace, "CubePosition c = cubePositionFromDirection(d);"),
         Function("Point", "f:i s:1 t:1 m:1", ["cubePoint(f, s, t, m).x", "cubePoint(f, s, t, m).y", "cubePoint(f, s, t, m).z"], [[f, 0.25, -0.5, 0.75] for f in faces], cubePoint),
-        Function("Direction", "f:i uv:2", ["d.x", "d.y", "d.z"], [[f, uv] for f in faces for uv in places if isNumber(uv)],
-                 lambda f, uv: unit(cubePoint(f, uv[0] * 2 - 1, uv[1] * 2 - 1, 1)), "vec3 d = directionFromCubePosition(f, uv);"),
+        # A place that is no number has the direction of the face's middle.
+        Function("Direction", "f:i uv:2", ["d.x", "d.y", "d.z"], [[f, uv] for f in faces for uv in places],
+                 lambda f, uv: unit(cubePoint(f, uv[0] * 2 - 1, uv[1] * 2 - 1, 1), cubePoint(f, 0, 0, 1)), "vec3 d = directionFromCubePosition(f, uv);"),
         Function("Fold", "f:i uv:2", ["float(c.face)", "c.uv.x", "c.uv.y", "number(c.valid)"], [[f, uv] for f in faces for uv in places], fold, "CubePosition c = foldCubePosition(f, uv);"),
     ], ["crossray/probe/cubemap.glsl"])
 
