@@ -183,9 +183,9 @@ OwnHit traceOwn(OwnRay ray)
     if (row >= 171 && row <= 214) checkEnter(row);
     if (row >= 215 && row <= 226) checkSteepEntry(row);
     if (row >= 227 && row <= 244) checkLongExit(row);
-    if (row >= 245 && row <= 492) checkFresnel(row);
-    if (row >= 493 && row <= 516) checkFresnelEnds(row);
-    if (row >= 517 && row <= 538) checkReflection(row);
-    if (row >= 539 && row <= 562) checkTransmittance(row);
+    if (row >= 245 && row <= 496) checkFresnel(row);
+    if (row >= 497 && row <= 520) checkFresnelEnds(row);
+    if (row >= 521 && row <= 542) checkReflection(row);
+    if (row >= 543 && row <= 566) checkTransmittance(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

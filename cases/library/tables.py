@@ -212,5 +212,6 @@ if __name__ == "__main__":
     import tables_probe
     import tables_project
     import tables_refract
-    for part in (tables_core, tables_refract, tables_probe, tables_project, tables_hooks, tables_linear, tables_patch, tables_hiz, tables_patches):
+    import tables_surface
+    for part in (tables_core, tables_refract, tables_probe, tables_project, tables_hooks, tables_linear, tables_patch, tables_hiz, tables_patches, tables_surface):
         part.make()

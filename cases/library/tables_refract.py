@@ -125,6 +125,7 @@ def refractTables():
     indices = [1.5, 1.0, 0.75, 2.4, 1.05, 0.999]
     fresnelRows = [[m, c, i] for m in (1, 2) for c in cosines for i in indices]
     fresnelRows += [[m, c, i] for m in (0, 1, 2, 3) for c in (0.8, 0.2) for i in (0, -1, kNaN, kInf, 1e30, 9e29, 1e-4, 0.001, 1000, 5000)]
+    fresnelRows += [[m, 1, i] for m in (1, 2) for i in (0, -1)]  # where an index of 0.001 would let light in
     reflections = normals + turned + broken + [([0, 3, 4], [0, 1, -2]), ([1e-31, 0, 0], v1)]
     write("refraction", "The refraction models, what a surface reflects, absorption and reflection follow Snell, Fresnel and Beer, and answer every degenerate input.", [
         Function("Refraction", "m:i p:3 n:3 v:3 ior:1 t:1", ["e.positionWS.x", "e.positionWS.y", "e.positionWS.z", "e.dirWS.x", "e.dirWS.y", "e.dirWS.z",
