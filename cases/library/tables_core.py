@@ -146,7 +146,7 @@ def rayDirNDC(ortho, p, d):
 
 def viewTables():
     kinds = [[o, r] for o in (0, 1) for r in (0, 1)]
-    devices = [0.0, 1.0, 0.25, 0.5, 0.75, 0.99, 0.015625, -0.25, 1.25, -2.0, 3.0, kNaN, 0.001, 0.9999, 1.0005, -0.0005, 1.002, -0.002, kInf, -kInf]
+    devices = [0.0, 1.0, 0.25, 0.5, 0.75, 0.99, 0.015625, -0.25, 1.25, -2.0, 3.0, kNaN, 0.001, 0.9999, 1.0005, -0.0005, 1.002, -0.002, kInf, -kInf, 1 + 2 ** -10, -2 ** -10]
     points = [[0, 0, 0], [1, 2, 3], [-3, 1, 2], [4, 1, -5], [-2, 3, -1], [5, -6, 7], [-6, 4, 0.5], [1e20, 1e20, -1e30], [-7, 5, 1], [3, 1, 5]]
     directions = [[1, 0, 0], [0, 1, 0], [0, 0, 1], [-2 / 3, 1 / 3, -2 / 3], [0.6, -0.8, 0], [0, 0.6, 0.8], [2 / 3, -1 / 3, 2 / 3]]
 
@@ -167,6 +167,11 @@ def viewTables():
         Function("Depths", "o:b r:b d:1", ["number(isClearedDepth(tableView(o, r), d))", "linearDepthFromDevice(tableView(o, r), d)"],
                  [[o, r, d] for o, r in kinds for d in devices],
                  lambda o, r, d: [isCleared(d, r), linearOf(d, o, r)], relative=2e-4),
+        # Of an infinite far plane depths go on beyond what counts as far; an orthographic view that begins at the eye stores what is not ahead of it.
+        Function("InfiniteFar", "d:1", ["linearDepthFromDevice(v, d)"], [[d] for d in (1e-9, 0.001, 0.25, 1, 0)], lambda d: [min(0.5 / d, 65504) if d > 0 else 65504],
+                 "View v = tableView(false, true);\nv.depthA = 0.0;\nv.depthB = 0.5;\nv.farDistance = 65504.0;"),
+        Function("FromEye", "d:1", ["linearDepthFromDevice(v, d)"], [[d] for d in (-2 ** -13, -2 ** -12, 0, 0.25)], lambda d: [64 * (d + 2 ** -13) if d > -2 ** -13 else 64],
+                 "View v = tableView(true, false);\nv.depthA = -0.0001220703125;\nv.depthB = 0.015625;"),
         Function("DeviceDepth", "o:b r:b z:1", ["deviceDepthFromLinear(tableView(o, r), z)"],
                  [[o, r, z] for o, r in kinds for z in ([0.5, 1, 2, 8, 64] if not o else [0.5, 1, 2, 8, 64, -3])] + [[0, 0, -1], [0, 1, 0], [0, 1, -8]],
                  lambda o, r, z: [deviceOf(z if z > 0 or o else kNear, o, r)]),
@@ -181,7 +186,7 @@ def viewTables():
                  [[o, ss, z] for o in (0, 1) for ss, z in [([0, 0], 1), ([64, 48], 2), ([10, 40], 4), ([50, 6], 0.75), ([32, 24], 8)]], placeOf,
                  "vec3 vs = positionVSFromSS(tableView(o, false), ss, z);\nvec3 ws = positionWSFromSS(tableView(o, false), ss, z);", absolute=4e-6),
         Function("ToScreen", "o:b p:3", ["found.positionSS.x", "found.positionSS.y", "found.linearDepth", "number(found.inFront)"],
-                 [[o, p] for o in (0, 1) for p in points + ahead], lambda o, p: toScreen(p, o),
+                 [[o, p] for o in (0, 1) for p in points + ahead + [toWorld(0.1, -0.05, 0.25)]], lambda o, p: toScreen(p, o),
                  "ScreenPosition found = projectWSToSS(tableView(o, true), p);", absolute=2e-5, relative=4e-6),
         Function("Overflow", "o:b p:3", ["found.positionSS.x", "found.positionSS.y", "found.linearDepth", "number(found.inFront)"],
                  [[0, 1e37, 0, -0.001], [0, 0, 1e37, -0.001], [1, 1, 2, -3], [0, 1, 2, -3], [0, 1, 2, 0], [0, 3, 4, 5], [1, 3, 4, 5]],
