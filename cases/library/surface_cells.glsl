@@ -139,6 +139,28 @@ void checkReduce(int tableRow)
     check(104, c.w, d3.x, 1e-05, 4e-06);
 }
 
+void checkSlopeEnds(int tableRow)
+{
+    vec3 d0 = ownNormalWS(ivec2(1, tableRow));
+    vec3 d1 = ownNormalWS(ivec2(2, tableRow));
+    float n = d0.x;
+    bool h = d0.y > 0.5;
+    float l = d0.z;
+    float r = d1.x;
+    float t = d1.y;
+    check(201, chooseSlope(n, h, NeighborRise(-l, true), NeighborRise(r, true), t), d1.z, 1e-05, 0);
+}
+
+void checkEdgeOn(int tableRow)
+{
+    vec3 d0 = ownNormalWS(ivec2(1, tableRow));
+    vec3 d1 = ownNormalWS(ivec2(2, tableRow));
+    vec3 n = vec3(d0.x, d0.y, d0.z);
+    vec2 g = computeNormalGradient(tableView(false, true), vec2(32.0, 24.0), 0.25, n);
+    check(301, g.x, d1.x, 4e-05, 1e-06);
+    check(302, g.y, d1.y, 4e-05, 1e-06);
+}
+
 void checkCorner(int tableRow)
 {
     vec3 d0 = ownNormalWS(ivec2(1, tableRow));
@@ -155,10 +177,10 @@ void checkCorner(int tableRow)
     tableShift = shift;
     tableNormal = n;
     vec4 c = buildSurfacePixel(tableView(o, true), ivec2(x, y), e);
-    check(201, c.x, d2.z, 4e-05, 1e-06);
-    check(202, c.y, d3.x, 4e-05, 1e-06);
-    check(203, c.z, d3.y, 4e-05, 1e-06);
-    check(204, c.w, d3.z, 4e-05, 1e-06);
+    check(401, c.x, d2.z, 4e-05, 1e-06);
+    check(402, c.y, d3.x, 4e-05, 1e-06);
+    check(403, c.z, d3.y, 4e-05, 1e-06);
+    check(404, c.w, d3.z, 4e-05, 1e-06);
 }
 
 void checkTrusted(int tableRow)
@@ -177,18 +199,20 @@ void checkTrusted(int tableRow)
     tableShift = shift;
     tableNormal = n;
     vec4 c = buildSurfacePixel(tableView(o, true), ivec2(x, y), e);
-    check(301, c.x, d2.z, 0.001, 3e-05);
-    check(302, c.y, d3.x, 0.001, 3e-05);
-    check(303, c.z, d3.y, 0.001, 3e-05);
-    check(304, c.w, d3.z, 0.001, 3e-05);
+    check(501, c.x, d2.z, 0.001, 3e-05);
+    check(502, c.y, d3.x, 0.001, 3e-05);
+    check(503, c.z, d3.y, 0.001, 3e-05);
+    check(504, c.w, d3.z, 0.001, 3e-05);
 }
 
 OwnHit traceOwn(OwnRay ray)
 {
     int row = ray.pixel.y;
     if (row >= 0 && row <= 26) checkCover(row);
-    if (row >= 27 && row <= 59) checkReduce(row);
-    if (row >= 60 && row <= 95) checkCorner(row);
-    if (row >= 96 && row <= 176) checkTrusted(row);
+    if (row >= 27 && row <= 62) checkReduce(row);
+    if (row >= 63 && row <= 70) checkSlopeEnds(row);
+    if (row >= 71 && row <= 71) checkEdgeOn(row);
+    if (row >= 72 && row <= 107) checkCorner(row);
+    if (row >= 108 && row <= 188) checkTrusted(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

@@ -181,6 +181,10 @@ def viewTables():
         Function("NearEye", "z:1 d:3", ["found.x", "found.y", "found.z"], [[1e-20, [1, 0, 0]], [1e-25, [0.6, 0.8, 0]], [1e-19, [0, 1, 0]], [1e-22, [0, 0.6, -0.8]], [2, [1, 0, 0]]],
                  lambda z, d: [0, 0, 0] if z < 1e-18 else [1, 0, 0],
                  "View v = tableView(false, true);\nv.viewFromWorld = mat4(1.0);\nvec3 found = computeRayDirNDC(v, vec3(z, z, -z), d);"),
+        # Nearly towards the eye, with exact matrices: a direction as long as the way on screen is more than rounding, at every depth.
+        Function("Along", "z:1 x:1", ["found.x", "found.y", "found.z"], [[2, 1e-4], [1000, 1e-4], [0.25, 1e-4], [2, 1e-7], [1000, 1e-7]],
+                 lambda z, x: [1, 0, -0.8 / (z * x)] if x / 0.8 > 1e-6 else [0, 0, 0],
+                 "View v = tableView(false, true);\nv.viewFromWorld = mat4(1.0);\nvec3 found = computeRayDirNDC(v, vec3(0.0, 0.0, -z), vec3(x, 0.0, -1.0));"),
         Function("FromScreen", "o:b ss:2 z:1", ["positionNDCFromSS(tableView(o, false), ss).x", "positionNDCFromSS(tableView(o, false), ss).y",
                  "vs.x", "vs.y", "vs.z", "ws.x", "ws.y", "ws.z"],
                  [[o, ss, z] for o in (0, 1) for ss, z in [([0, 0], 1), ([64, 48], 2), ([10, 40], 4), ([50, 6], 0.75), ([32, 24], 8)]], placeOf,
@@ -256,7 +260,7 @@ def hierarchyTables():
     write("hierarchy", "Fading at the border, sharing between tiers, the end of a march and the place in the previous frame follow their definitions.", [
         Function("ScreenWeight", "uv:2 d:1 form:i", ["computeScreenWeight(uv, d, form)"],
                  [[x, 0.5, d, f] for f in (0, 1, 2) for d in (0.1, 0.25) for x in coordinates] + [[0.5, x, 0.2, f] for f in (0, 1, 2) for x in coordinates]
-                 + [[0.5, 0.5, 0, 0], [0, 1, 0, 1], [1, 0, -0.5, 2], [0.3, 0.7, kNaN, 0], [0.04, 0.06, 0.125, 1], [0.04, 0.06, 0.125, 2], [0.4, 0.3, 1, 0], [1.2, 0.5, 0, 0], [5e-29, 0.5, 1e-28, 0], [0.5, 2e-31, 4e-31, 0]],
+                 + [[0.5, 0.5, 0, 0], [0, 1, 0, 1], [1, 0, -0.5, 2], [0.3, 0.7, kNaN, 0], [0.04, 0.06, 0.125, 1], [0.04, 0.06, 0.125, 2], [0.4, 0.3, 1, 0], [1.2, 0.5, 0, 0], [-0.01, 0.5, 0, 0], [0.5, -0.25, -1, 1], [5e-29, 0.5, 1e-28, 0], [0.5, 2e-31, 4e-31, 0]],
                  lambda uv, d, form: [screenRamp(uv[0], d, form) * screenRamp(uv[1], d, form)], relative=1e-5, absolute=1e-6),
         Function("Tiers", "h:1 w:1", ["addTier(h, w).hierarchyWeight", "addTier(h, w).weight", "addSky(h).hierarchyWeight", "addSky(h).weight"],
                  [[h, w] for h in weights for w in weights], lambda h, w: [addTier(h, w), addTier(h, 1)], relative=0, absolute=1e-7),

@@ -88,7 +88,7 @@ def trusted(o, shift, x, y, n, error):
 def surfaceTables():
     covers = [[bx, by, bx + nx, by + ny, level, g, low, high] for bx, by, nx, ny in ((2, 9, 3, 2), (4, 0, 1, 6)) for level in (0, 3) for g in ([0.5, -0.25], [-0.125, 0.75], [0, 0]) for low, high in ((-3, -3), (2, 2))]
     covers += [[0, 0, 2, 2, 1, [0, 0], low, high] for low, high in ((-1, 1), (-2, 3), (1, 4))]
-    sizes = [(7, 5), (6, 4), (5, 4), (4, 5), (9, 2), (2, 7), (5, 5), (1, 3), (3, 1), (1, 1), (2, 2)]
+    sizes = [(7, 5), (6, 4), (5, 4), (4, 5), (9, 2), (2, 7), (2, 9), (5, 5), (1, 3), (3, 1), (1, 1), (2, 2)]
     cells = [[x, y, w, h, 2 * w + 1, 2 * h + 1] for w, h in sizes for y in range(max(h // 2, 1)) for x in range(max(w // 2, 1))] + [[0, 0, 0, 0, 3, 3]]  # no cell counts as one
     # At a corner the normal alone speaks, however long it is and wherever in the pixel it is taken.
     corner = [[o, 0, x, y, mul(normalOf(o, x, y, affineAt(o, 0, x, y), mul(g, 1 if o else affineAt(o, 0, x, y))), s), 0]
@@ -109,6 +109,13 @@ def surfaceTables():
                  "SurfaceCell c = makeCover(FinerCells(CellRect(ivec2(bx, by), ivec2(ex, ey)), ivec2(64), l, ivec2(512), vec2(0.0)), g, SurfaceRange(low, high));", relative=1e-5, absolute=1e-10),
         Function("Reduce", "x:i y:i w:i h:i px:i py:i", ["c.x", "c.y", "c.z", "c.w"], [row for row in cells if reduceStray(*row)], reduceStray,
                  "tableSize = ivec2(w, h);\nvec4 c = reduceSurfaceCell(ivec2(x, y), 1, ivec2(px, py));", absolute=4e-6),
+        # Borders that powers of two meet exactly: the tolerance's ends belong to it, a slope and its double agree, of two as flat the second is taken.
+        Function("SlopeEnds", "n:1 h:b l:1 r:1 t:1", ["chooseSlope(n, h, NeighborRise(-l, true), NeighborRise(r, true), t)"],
+                 [[0.125, 1, 0.25, 0.5, 0.125], [0.625, 1, 0.25, 0.5, 0.125], [0.625, 1, 0.5, 0.25, 0.125], [0, 0, 0.25, 0.5, 0.125], [0, 0, -0.25, -0.5, 0.0625], [0, 0, -0.5, -0.25, 0.0625],
+                  [0, 0, 0.0625, -0.0625, 0.25], [0, 0, -0.5, 0.5, 0.125]],
+                 lambda n, h, left, right, t: [chooseSlope(n, h, left, True, right, True, t)], absolute=0),
+        Function("EdgeOn", "n:3", ["g.x", "g.y"], [[[0.6, 0.8, 0]]], lambda n: [-n[k] * [0.025, -1 / 48][k] * 0.25 / 1e-6 for k in range(2)],
+                 "vec2 g = computeNormalGradient(tableView(false, true), vec2(32.0, 24.0), 0.25, n);", relative=4e-5),
         Function("Corner", "o:b shift:1 x:i y:i n:3 e:1", ["c.x", "c.y", "c.z", "c.w"], corner, trusted, build, relative=4e-5, absolute=1e-6),
         Function("Trusted", "o:b shift:1 x:i y:i n:3 e:1", ["c.x", "c.y", "c.z", "c.w"], ends, trusted, build, relative=1e-3, absolute=3e-5),
     ], [], kViews + copyOf("crossray/project/surface_pyramid.glsl", ["CROSSRAY_BUILD_SURFACE_PYRAMID"]) + kHooks)

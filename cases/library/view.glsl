@@ -116,6 +116,20 @@ void checkNearEye(int tableRow)
     check(603, found.z, d2.x, 1e-05, 1e-06);
 }
 
+void checkAlong(int tableRow)
+{
+    vec3 d0 = ownNormalWS(ivec2(1, tableRow));
+    vec3 d1 = ownNormalWS(ivec2(2, tableRow));
+    float z = d0.x;
+    float x = d0.y;
+    View v = tableView(false, true);
+    v.viewFromWorld = mat4(1.0);
+    vec3 found = computeRayDirNDC(v, vec3(0.0, 0.0, -z), vec3(x, 0.0, -1.0));
+    check(701, found.x, d0.z, 1e-05, 1e-06);
+    check(702, found.y, d1.x, 1e-05, 1e-06);
+    check(703, found.z, d1.y, 1e-05, 1e-06);
+}
+
 void checkFromScreen(int tableRow)
 {
     vec3 d0 = ownNormalWS(ivec2(1, tableRow));
@@ -127,14 +141,14 @@ void checkFromScreen(int tableRow)
     float z = d1.x;
     vec3 vs = positionVSFromSS(tableView(o, false), ss, z);
     vec3 ws = positionWSFromSS(tableView(o, false), ss, z);
-    check(701, positionNDCFromSS(tableView(o, false), ss).x, d1.y, 1e-05, 4e-06);
-    check(702, positionNDCFromSS(tableView(o, false), ss).y, d1.z, 1e-05, 4e-06);
-    check(703, vs.x, d2.x, 1e-05, 4e-06);
-    check(704, vs.y, d2.y, 1e-05, 4e-06);
-    check(705, vs.z, d2.z, 1e-05, 4e-06);
-    check(706, ws.x, d3.x, 1e-05, 4e-06);
-    check(707, ws.y, d3.y, 1e-05, 4e-06);
-    check(708, ws.z, d3.z, 1e-05, 4e-06);
+    check(801, positionNDCFromSS(tableView(o, false), ss).x, d1.y, 1e-05, 4e-06);
+    check(802, positionNDCFromSS(tableView(o, false), ss).y, d1.z, 1e-05, 4e-06);
+    check(803, vs.x, d2.x, 1e-05, 4e-06);
+    check(804, vs.y, d2.y, 1e-05, 4e-06);
+    check(805, vs.z, d2.z, 1e-05, 4e-06);
+    check(806, ws.x, d3.x, 1e-05, 4e-06);
+    check(807, ws.y, d3.y, 1e-05, 4e-06);
+    check(808, ws.z, d3.z, 1e-05, 4e-06);
 }
 
 void checkToScreen(int tableRow)
@@ -145,10 +159,10 @@ void checkToScreen(int tableRow)
     bool o = d0.x > 0.5;
     vec3 p = vec3(d0.y, d0.z, d1.x);
     ScreenPosition found = projectWSToSS(tableView(o, true), p);
-    check(801, found.positionSS.x, d1.y, 4e-06, 2e-05);
-    check(802, found.positionSS.y, d1.z, 4e-06, 2e-05);
-    check(803, found.linearDepth, d2.x, 4e-06, 2e-05);
-    check(804, number(found.inFront), d2.y, 4e-06, 2e-05);
+    check(901, found.positionSS.x, d1.y, 4e-06, 2e-05);
+    check(902, found.positionSS.y, d1.z, 4e-06, 2e-05);
+    check(903, found.linearDepth, d2.x, 4e-06, 2e-05);
+    check(904, number(found.inFront), d2.y, 4e-06, 2e-05);
 }
 
 void checkOverflow(int tableRow)
@@ -159,10 +173,10 @@ void checkOverflow(int tableRow)
     bool o = d0.x > 0.5;
     vec3 p = vec3(d0.y, d0.z, d1.x);
     ScreenPosition found = projectVSToSS(tableView(o, true), p);
-    check(901, found.positionSS.x, d1.y, 1e-05, 1e-06);
-    check(902, found.positionSS.y, d1.z, 1e-05, 1e-06);
-    check(903, found.linearDepth, d2.x, 1e-05, 1e-06);
-    check(904, number(found.inFront), d2.y, 1e-05, 1e-06);
+    check(1001, found.positionSS.x, d1.y, 1e-05, 1e-06);
+    check(1002, found.positionSS.y, d1.z, 1e-05, 1e-06);
+    check(1003, found.linearDepth, d2.x, 1e-05, 1e-06);
+    check(1004, number(found.inFront), d2.y, 1e-05, 1e-06);
 }
 
 void checkDirections(int tableRow)
@@ -177,15 +191,15 @@ void checkDirections(int tableRow)
     vec3 p = vec3(d0.y, d0.z, d1.x);
     vec3 d = vec3(d1.y, d1.z, d2.x);
     vec3 toEye = viewDirectionWS(tableView(o, true), p);
-    check(1001, directionVSFromWS(tableView(o, true), d).x, d2.y, 1e-05, 4e-06);
-    check(1002, directionVSFromWS(tableView(o, true), d).y, d2.z, 1e-05, 4e-06);
-    check(1003, directionVSFromWS(tableView(o, true), d).z, d3.x, 1e-05, 4e-06);
-    check(1004, toEye.x, d3.y, 1e-05, 4e-06);
-    check(1005, toEye.y, d3.z, 1e-05, 4e-06);
-    check(1006, toEye.z, d4.x, 1e-05, 4e-06);
-    check(1007, positionVSFromWS(tableView(o, true), p).x, d4.y, 1e-05, 4e-06);
-    check(1008, positionVSFromWS(tableView(o, true), p).y, d4.z, 1e-05, 4e-06);
-    check(1009, positionVSFromWS(tableView(o, true), p).z, d5.x, 1e-05, 4e-06);
+    check(1101, directionVSFromWS(tableView(o, true), d).x, d2.y, 1e-05, 4e-06);
+    check(1102, directionVSFromWS(tableView(o, true), d).y, d2.z, 1e-05, 4e-06);
+    check(1103, directionVSFromWS(tableView(o, true), d).z, d3.x, 1e-05, 4e-06);
+    check(1104, toEye.x, d3.y, 1e-05, 4e-06);
+    check(1105, toEye.y, d3.z, 1e-05, 4e-06);
+    check(1106, toEye.z, d4.x, 1e-05, 4e-06);
+    check(1107, positionVSFromWS(tableView(o, true), p).x, d4.y, 1e-05, 4e-06);
+    check(1108, positionVSFromWS(tableView(o, true), p).y, d4.z, 1e-05, 4e-06);
+    check(1109, positionVSFromWS(tableView(o, true), p).z, d5.x, 1e-05, 4e-06);
 }
 
 void checkOnScreen(int tableRow)
@@ -193,9 +207,9 @@ void checkOnScreen(int tableRow)
     vec3 d0 = ownNormalWS(ivec2(1, tableRow));
     vec3 d1 = ownNormalWS(ivec2(2, tableRow));
     vec2 ss = vec2(d0.x, d0.y);
-    check(1101, number(isOnScreen(tableView(false, true), ss)), d0.z, 1e-05, 1e-06);
-    check(1102, screenScale(tableView(false, true)).x, d1.x, 1e-05, 1e-06);
-    check(1103, screenScale(tableView(true, true)).y, d1.y, 1e-05, 1e-06);
+    check(1201, number(isOnScreen(tableView(false, true), ss)), d0.z, 1e-05, 1e-06);
+    check(1202, screenScale(tableView(false, true)).x, d1.x, 1e-05, 1e-06);
+    check(1203, screenScale(tableView(true, true)).y, d1.y, 1e-05, 1e-06);
 }
 
 void checkRayDirNDC(int tableRow)
@@ -208,9 +222,9 @@ void checkRayDirNDC(int tableRow)
     vec3 p = vec3(d0.y, d0.z, d1.x);
     vec3 d = vec3(d1.y, d1.z, d2.x);
     vec3 found = computeRayDirNDC(tableView(o, true), p, d);
-    check(1201, found.x, d2.y, 2e-05, 1e-05);
-    check(1202, found.y, d2.z, 2e-05, 1e-05);
-    check(1203, found.z, d3.x, 2e-05, 1e-05);
+    check(1301, found.x, d2.y, 2e-05, 1e-05);
+    check(1302, found.y, d2.z, 2e-05, 1e-05);
+    check(1303, found.z, d3.x, 2e-05, 1e-05);
 }
 
 OwnHit traceOwn(OwnRay ray)
@@ -223,11 +237,12 @@ OwnHit traceOwn(OwnRay ray)
     if (row >= 122 && row <= 124) checkNearestDepth(row);
     if (row >= 125 && row <= 126) checkNoAxis(row);
     if (row >= 127 && row <= 131) checkNearEye(row);
-    if (row >= 132 && row <= 141) checkFromScreen(row);
-    if (row >= 142 && row <= 175) checkToScreen(row);
-    if (row >= 176 && row <= 182) checkOverflow(row);
-    if (row >= 183 && row <= 196) checkDirections(row);
-    if (row >= 197 && row <= 212) checkOnScreen(row);
-    if (row >= 213 && row <= 262) checkRayDirNDC(row);
+    if (row >= 132 && row <= 136) checkAlong(row);
+    if (row >= 137 && row <= 146) checkFromScreen(row);
+    if (row >= 147 && row <= 180) checkToScreen(row);
+    if (row >= 181 && row <= 187) checkOverflow(row);
+    if (row >= 188 && row <= 201) checkDirections(row);
+    if (row >= 202 && row <= 217) checkOnScreen(row);
+    if (row >= 218 && row <= 267) checkRayDirNDC(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }
