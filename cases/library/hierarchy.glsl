@@ -101,10 +101,10 @@ void checkByView(int tableRow)
 OwnHit traceOwn(OwnRay ray)
 {
     int row = ray.pixel.y;
-    if (row >= 0 && row <= 126) checkScreenWeight(row);
-    if (row >= 127 && row <= 190) checkTiers(row);
-    if (row >= 191 && row <= 234) checkMarchEnd(row);
-    if (row >= 235 && row <= 246) checkByMotion(row);
-    if (row >= 247 && row <= 254) checkByView(row);
+    if (row >= 0 && row <= 128) checkScreenWeight(row);
+    if (row >= 129 && row <= 192) checkTiers(row);
+    if (row >= 193 && row <= 236) checkMarchEnd(row);
+    if (row >= 237 && row <= 248) checkByMotion(row);
+    if (row >= 249 && row <= 256) checkByView(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

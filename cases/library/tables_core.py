@@ -1,4 +1,4 @@
-"""Tables of core/, refract/, hierarchy/, debug/ and shared/; see tables.py."""
+"""Tables of core/, hierarchy/, debug/ and shared/; see tables.py."""
 import math
 from tables import Function, add, clamp01, dot, flat, isNumber, kInf, kLimit, kLongest, kNaN, kShortest, length, mul, smooth, sub, unit, write
 
@@ -146,7 +146,7 @@ def rayDirNDC(ortho, p, d):
 
 def viewTables():
     kinds = [[o, r] for o in (0, 1) for r in (0, 1)]
-    devices = [0.0, 1.0, 0.25, 0.5, 0.75, 0.99, 0.015625, -0.25, 1.25, -2.0, 3.0, kNaN, 0.001, 0.9999, 1.0005, -0.0005, 1.002, -0.002, kInf, -kInf]
+    devices = [0.0, 1.0, 0.25, 0.5, 0.75, 0.99, 0.015625, -0.25, 1.25, -2.0, 3.0, kNaN, 0.001, 0.9999, 1.0005, -0.0005, 1.002, -0.002, kInf, -kInf, 1 + 2 ** -10, -2 ** -10]
     points = [[0, 0, 0], [1, 2, 3], [-3, 1, 2], [4, 1, -5], [-2, 3, -1], [5, -6, 7], [-6, 4, 0.5], [1e20, 1e20, -1e30], [-7, 5, 1], [3, 1, 5]]
     directions = [[1, 0, 0], [0, 1, 0], [0, 0, 1], [-2 / 3, 1 / 3, -2 / 3], [0.6, -0.8, 0], [0, 0.6, 0.8], [2 / 3, -1 / 3, 2 / 3]]
 
@@ -167,6 +167,11 @@ def viewTables():
         Function("Depths", "o:b r:b d:1", ["number(isClearedDepth(tableView(o, r), d))", "linearDepthFromDevice(tableView(o, r), d)"],
                  [[o, r, d] for o, r in kinds for d in devices],
                  lambda o, r, d: [isCleared(d, r), linearOf(d, o, r)], relative=2e-4),
+        # Of an infinite far plane depths go on beyond what counts as far; an orthographic view that begins at the eye stores what is not ahead of it.
+        Function("InfiniteFar", "d:1", ["linearDepthFromDevice(v, d)"], [[d] for d in (1e-9, 0.001, 0.25, 1, 0)], lambda d: [min(0.5 / d, 65504) if d > 0 else 65504],
+                 "View v = tableView(false, true);\nv.depthA = 0.0;\nv.depthB = 0.5;\nv.farDistance = 65504.0;"),
+        Function("FromEye", "d:1", ["linearDepthFromDevice(v, d)"], [[d] for d in (-2 ** -13, -2 ** -12, 0, 0.25)], lambda d: [64 * (d + 2 ** -13) if d > -2 ** -13 else 64],
+                 "View v = tableView(true, false);\nv.depthA = -0.0001220703125;\nv.depthB = 0.015625;"),
         Function("DeviceDepth", "o:b r:b z:1", ["deviceDepthFromLinear(tableView(o, r), z)"],
                  [[o, r, z] for o, r in kinds for z in ([0.5, 1, 2, 8, 64] if not o else [0.5, 1, 2, 8, 64, -3])] + [[0, 0, -1], [0, 1, 0], [0, 1, -8]],
                  lambda o, r, z: [deviceOf(z if z > 0 or o else kNear, o, r)]),
@@ -176,12 +181,16 @@ def viewTables():
         Function("NearEye", "z:1 d:3", ["found.x", "found.y", "found.z"], [[1e-20, [1, 0, 0]], [1e-25, [0.6, 0.8, 0]], [1e-19, [0, 1, 0]], [1e-22, [0, 0.6, -0.8]], [2, [1, 0, 0]]],
                  lambda z, d: [0, 0, 0] if z < 1e-18 else [1, 0, 0],
                  "View v = tableView(false, true);\nv.viewFromWorld = mat4(1.0);\nvec3 found = computeRayDirNDC(v, vec3(z, z, -z), d);"),
+        # Nearly towards the eye, with exact matrices: a direction as long as the way on screen is more than rounding, at every depth.
+        Function("Along", "z:1 x:1", ["found.x", "found.y", "found.z"], [[2, 1e-4], [1000, 1e-4], [0.25, 1e-4], [2, 1e-7], [1000, 1e-7]],
+                 lambda z, x: [1, 0, -0.8 / (z * x)] if x / 0.8 > 1e-6 else [0, 0, 0],
+                 "View v = tableView(false, true);\nv.viewFromWorld = mat4(1.0);\nvec3 found = computeRayDirNDC(v, vec3(0.0, 0.0, -z), vec3(x, 0.0, -1.0));"),
         Function("FromScreen", "o:b ss:2 z:1", ["positionNDCFromSS(tableView(o, false), ss).x", "positionNDCFromSS(tableView(o, false), ss).y",
                  "vs.x", "vs.y", "vs.z", "ws.x", "ws.y", "ws.z"],
                  [[o, ss, z] for o in (0, 1) for ss, z in [([0, 0], 1), ([64, 48], 2), ([10, 40], 4), ([50, 6], 0.75), ([32, 24], 8)]], placeOf,
                  "vec3 vs = positionVSFromSS(tableView(o, false), ss, z);\nvec3 ws = positionWSFromSS(tableView(o, false), ss, z);", absolute=4e-6),
         Function("ToScreen", "o:b p:3", ["found.positionSS.x", "found.positionSS.y", "found.linearDepth", "number(found.inFront)"],
-                 [[o, p] for o in (0, 1) for p in points + ahead], lambda o, p: toScreen(p, o),
+                 [[o, p] for o in (0, 1) for p in points + ahead + [toWorld(0.1, -0.05, 0.25)]], lambda o, p: toScreen(p, o),
                  "ScreenPosition found = projectWSToSS(tableView(o, true), p);", absolute=2e-5, relative=4e-6),
         Function("Overflow", "o:b p:3", ["found.positionSS.x", "found.positionSS.y", "found.linearDepth", "number(found.inFront)"],
                  [[0, 1e37, 0, -0.001], [0, 0, 1e37, -0.001], [1, 1, 2, -3], [0, 1, 2, -3], [0, 1, 2, 0], [0, 3, 4, 5], [1, 3, 4, 5]],
@@ -207,141 +216,7 @@ def viewTables():
     ], ["crossray/core/ray_ndc.glsl", "crossray/core/view.glsl"], kViews)
 
 
-# ------------------------------------------------------------------------- refract/, core/reflection.glsl
-
-kNone, kNoRefractedRay, kDegenerateRay, kDegenerateInput = 0, 8, 9, 10
-
-
-def reflect(n, v):
-    n, v = unit(n), unit(v)
-    if length(n) < 0.5 or length(v) < 0.5:
-        return [0, 0, 0]
-    return unit(sub(mul(n, 2 * max(dot(n, v), 0)), v), mul(v, -1))
-
-
-def enter(n, v, index, thickness):
-    """Snell's law by the angle; answers status, normal, direction inside, cosines, index, thickness."""
-    v, n = unit(v), unit(n)
-    t = min(thickness, 65504.0) if thickness > 0 else 0.0
-    known = 0 < index < 1e30
-    index = min(max(index, 0.001), 1000.0) if known else 1.0
-    c = dot(n, v)
-    if c < 1e-4:
-        side = sub(n, mul(v, c))
-        if not (length(side) > 1e-5 and length(v) > 0.5):
-            return kDegenerateRay, n, mul(v, -1), 1, 1, index, t, v
-        n = add(mul(unit(side), math.sqrt(1 - 1e-8)), mul(v, 1e-4))
-        c = 1e-4
-    if not known:
-        return kDegenerateInput, n, mul(v, -1), 1, 1, index, t, v
-    c = min(c, 1.0)
-    across = sub(v, mul(n, c))  # along the surface, towards the eye
-    sine = math.sqrt(max(1 - c * c, 0)) / index
-    if sine * sine > 1 and (1 - c * c) / (index * index) > 1:
-        return kNoRefractedRay, n, reflect(n, v), c, c, index, t, v
-    # 1 - sine^2 without its cancellation.
-    inside = math.sqrt(max((index * index - 1) / (index * index) + c * c / (index * index), 0))
-    direction = sub(mul(unit(across), -sine), mul(n, inside)) if length(across) > 0 else mul(n, -1)
-    return kNone, n, unit(direction, mul(v, -1)), c, inside, index, t, v
-
-
-def exitOf(model, p, n, v, index, thickness):
-    if model not in (1, 2, 3):
-        v = unit(v)
-        status = kNone if length(v) > 0.5 else kDegenerateRay
-        status = status if isNumber(p) else kDegenerateRay
-        return [p if isNumber(p) else [0, 0, 0], mul(v, -1), 0, status]
-    status, n, d, c, inside, index, t, v = enter(n, v, index, 0.005 if model == 3 else thickness)
-    origin = p if isNumber(p) else [0, 0, 0]
-    if not isNumber(p):
-        status = kDegenerateRay
-    if status != kNone:
-        return [origin, d, 0, status]
-    if model == 1:
-        path = inside * t  # the chord of a sphere of diameter t
-        inwards = sub(mul(n, -1), mul(d, 2 * inside))  # the normal where the chord ends
-        # Out again by Snell's law: the tangential part grows by the index, the cosine is that of the entry.
-        tangent = sub(d, mul(inwards, dot(d, inwards)))
-        out = sub(mul(tangent, index), mul(inwards, c))
-        return [add(origin, mul(d, path)), unit(out, mul(v, -1)), path, kNone]
-    path = t / max(inside, 0.01)
-    return [add(origin, mul(d, path)), mul(v, -1), path, kNone]
-
-
-def fresnelExact(cosine, index):
-    if not 0 < index < 1e30:
-        return 1.0
-    index = min(max(index, 0.001), 1000.0)
-    c = min(cosine, 1.0) if cosine > 1e-4 else 1e-4
-    q = index * index - 1 + c * c
-    if q <= 0:
-        return 1.0
-    k = math.sqrt(q)  # index times the inner cosine
-    rs = (c - k) / (c + k)
-    rp = (index * index * c - k) / (index * index * c + k)
-    return 0.5 * (rs * rs + rp * rp)
-
-
-def fresnelSchlick(cosine, index):
-    if not 0 < index < 1e30:
-        return 1.0
-    index = min(max(index, 0.001), 1000.0)
-    c = min(cosine, 1.0) if cosine > 1e-4 else 1e-4
-    q = index * index - 1 + c * c
-    if q <= 0:
-        return 1.0
-    side = math.sqrt(q) / index if index < 1 else c
-    base = ((index - 1) / (index + 1)) ** 2
-    return base + (1 - base) * (1 - side) ** 5
-
-
-def transmittance(color, distance, path):
-    path = min(path, 65504.0) if path > 0 else 0.0
-    distance = distance if distance > 1e-5 else 1e-5
-    return [max(c, 1e-4) ** (path / distance) if c < 1 else 1.0 for c in color]
-
-
-def refractTables():
-    v1 = [0, 0, 1]
-    normals = [([0, 0, 1], v1), ([0.6, 0, 0.8], v1), ([0, 0.8, 0.6], v1), ([1, 2, 2], [2, 1, 2]), ([-3, 0, 1], [0.3, 0.2, 1]), ([5, 0, 0.05], v1)]
-    turned = [([1, 0, -0.5], v1), ([0, 1, -3], v1), ([1, 2, 0], [0, 0, 2]), ([3e-5, 0, -1], v1), ([1, 0, 1e-4], v1)]
-    broken = [([0, 0, -1], v1), ([0, 0, 0], v1), ([0, 0, 1], [0, 0, 0]), ([1, 0, 0], [0, 0, 0]), ([kNaN, 0, 1], v1), ([0, 0, 1], [kInf, 0, 0]), ([5e-6, 0, -1], v1),
-              ([0.6, 0.8, 0], [kNaN, 0, 0])]
-    p = [1, 2, 3]
-    rows = [[m, p, n, v, index, t] for m in (1, 2, 3) for n, v in normals for index, t in [(1.5, 2), (1.0, 0.5), (0.7, 1)]]
-    rows += [[m, p, n, v, 1.5, 2] for m in (1, 2, 3) for n, v in turned[:3]]
-    rows += [[m, p, n, v, 1.5, 2] for m in (0, 1, 2, 4) for n, v in broken]
-    rows += [[m, p, [0.6, 0, 0.8], v1, index, 1] for m in (1, 2) for index in (0, -1, kNaN, kInf, 1e-4, 0.001, 1e30, 1.25, 0.61, 0.59)]
-    dense = [[m, p, [0.6, 0, 0.8], v1, index, 1] for m in (1, 2) for index in (1e29, 2000, 1000, 500)]
-    rows += [[m, p, [0.6, 0, 0.8], v1, 1.3, t] for m in (1, 2) for t in (0, -2, kNaN, 0.25, 70000, 65504, kInf)]
-    rows += [[m, x, [0.6, 0, 0.8], v1, 1.3, 1] for m in (0, 1, 2, 3) for x in ([kNaN, 0, 0], [0, kInf, 0], [0, 0, kNaN], [-3, 4, 5])]
-    rows += [[2, p, [1, 0, c], v1, index, 1] for c in (0.005, 0.008, 0.012, 0.02) for index in (1.0, 1.00001)]
-    rows += [[m, p, [0, 0, 1], v1, 0.5, 1] for m in (1, 2)]  # straight down: no total reflection whatever the index
-    cosines = [1, 0.9, 0.7, 0.5, 0.3, 0.1, 0.01, 1e-4, 5e-5, 2e-4, 0, -0.5, 1.5, kNaN]
-    indices = [1.5, 1.0, 0.75, 2.4, 1.05, 0.999]
-    fresnelRows = [[m, c, i] for m in (1, 2) for c in cosines for i in indices]
-    fresnelRows += [[m, c, i] for m in (0, 1, 2, 3) for c in (0.8, 0.2) for i in (0, -1, kNaN, kInf, 1e30, 9e29, 1e-4, 0.001, 1000, 5000)]
-    reflections = normals + turned + broken + [([0, 3, 4], [0, 1, -2]), ([1e-31, 0, 0], v1)]
-    write("refraction", "The refraction models, what a surface reflects, absorption and reflection follow Snell, Fresnel and Beer, and answer every degenerate input.", [
-        Function("Refraction", "m:i p:3 n:3 v:3 ior:1 t:1", ["e.positionWS.x", "e.positionWS.y", "e.positionWS.z", "e.dirWS.x", "e.dirWS.y", "e.dirWS.z",
-                 "e.pathLength", "float(e.status)"], rows, exitOf,
-                 "RefractionExit e = computeRefraction(m, p, n, v, ior, t);", relative=2e-5, absolute=2e-5),
-        Function("DenseRefraction", "m:i p:3 n:3 v:3 ior:1 t:1", ["e.positionWS.x", "e.positionWS.z", "e.dirWS.x", "e.dirWS.z", "e.pathLength", "float(e.status)"],
-                 dense, lambda *given: [flat(exitOf(*given))[k] for k in (0, 2, 3, 5, 6, 7)],
-                 "RefractionExit e = computeRefraction(m, p, n, v, ior, t);", absolute=2e-4),
-        Function("Fresnel", "m:i c:1 ior:1", ["computeFresnel(m, c, ior)"], fresnelRows,
-                 lambda m, c, i: [fresnelExact(c, i) if m == 1 else fresnelSchlick(c, i) if m == 2 else 0], relative=2e-5, absolute=2e-6),
-        Function("FresnelEnds", "m:i c:1 ior:1", ["computeFresnel(m, c, ior)"], [[m, c, i] for m in (1, 2) for c in (1, 1.5) for i in (1e-4, 0.001, 0.002, 500, 1000, 5000)],
-                 lambda m, c, i: [fresnelExact(c, i) if m == 1 else fresnelSchlick(c, i)], absolute=4e-4),
-        Function("Reflection", "n:3 v:3", ["d.x", "d.y", "d.z"], reflections, reflect, "vec3 d = computeReflectionDirection(n, v);", absolute=1e-6),
-        Function("Transmittance", "c:3 a:1 path:1", ["t.x", "t.y", "t.z"],
-                 [[[0.5, 0.25, 0.75], 1, 1], [[0.5, 0.25, 0.75], 2, 1], [[0.5, 0.25, 0.75], 1, 3], [[1, 1.1, 1.2], 1, 4], [[1.2, 1, 1.1], 0.5, 4],
-                  [[1.1, 1.2, 1], 0.5, 4], [[0, -1, kNaN], 1, 1], [[kNaN, 0, 5e-5], 8, 1], [[2e-4, kNaN, 0], 4, 1], [[0.5, 0.9, 0.8], 1, 0], [[0.5, 0.9, 0.8], 1, -2],
-                  [[0.5, 0.9, 0.8], 1, kNaN], [[0.5, 0.9, 0.8], 0, 1e-5], [[0.5, 0.9, 0.8], -3, 1e-5], [[0.5, 0.9, 0.8], kNaN, 1e-5], [[0.5, 0.9, 0.8], 2e-5, 1e-5],
-                  [[0.5, 0.9, 0.8], 0.005, 0.004], [[0.5, 0.9, 0.8], 5e-6, 1e-5], [[0.5, 0.9, 0.8], 65504, 65504], [[0.5, 0.9, 0.8], 65504, 1e6], [[0.5, 0.9, 0.8], 65504, kInf],
-                  [[0.95, 0.2, 0.999], 0.75, 0.5], [[0, 0, 0], 1, -0.0], [[0, 0, 0], 1, 0]],
-                 transmittance, "vec3 t = computeTransmittance(c, a, path);", relative=4e-5, absolute=1e-7),
-    ], ["crossray/refract/refraction.glsl", "crossray/refract/fresnel.glsl", "crossray/refract/absorption.glsl", "crossray/core/reflection.glsl"])
+kNone, kNoRefractedRay, kDegenerateRay, kDegenerateInput = 0, 8, 9, 10  # reasons
 
 
 # ------------------------------------------------------------------ hierarchy/, project/march_end, project/reprojection
@@ -385,7 +260,7 @@ def hierarchyTables():
     write("hierarchy", "Fading at the border, sharing between tiers, the end of a march and the place in the previous frame follow their definitions.", [
         Function("ScreenWeight", "uv:2 d:1 form:i", ["computeScreenWeight(uv, d, form)"],
                  [[x, 0.5, d, f] for f in (0, 1, 2) for d in (0.1, 0.25) for x in coordinates] + [[0.5, x, 0.2, f] for f in (0, 1, 2) for x in coordinates]
-                 + [[0.5, 0.5, 0, 0], [0, 1, 0, 1], [1, 0, -0.5, 2], [0.3, 0.7, kNaN, 0], [0.04, 0.06, 0.125, 1], [0.04, 0.06, 0.125, 2], [0.4, 0.3, 1, 0], [1.2, 0.5, 0, 0], [5e-29, 0.5, 1e-28, 0], [0.5, 2e-31, 4e-31, 0]],
+                 + [[0.5, 0.5, 0, 0], [0, 1, 0, 1], [1, 0, -0.5, 2], [0.3, 0.7, kNaN, 0], [0.04, 0.06, 0.125, 1], [0.04, 0.06, 0.125, 2], [0.4, 0.3, 1, 0], [1.2, 0.5, 0, 0], [-0.01, 0.5, 0, 0], [0.5, -0.25, -1, 1], [5e-29, 0.5, 1e-28, 0], [0.5, 2e-31, 4e-31, 0]],
                  lambda uv, d, form: [screenRamp(uv[0], d, form) * screenRamp(uv[1], d, form)], relative=1e-5, absolute=1e-6),
         Function("Tiers", "h:1 w:1", ["addTier(h, w).hierarchyWeight", "addTier(h, w).weight", "addSky(h).hierarchyWeight", "addSky(h).weight"],
                  [[h, w] for h in weights for w in weights], lambda h, w: [addTier(h, w), addTier(h, 1)], relative=0, absolute=1e-7),
@@ -456,7 +331,6 @@ def outputTables():
 def make():
     mathTables()
     viewTables()
-    refractTables()
     hierarchyTables()
     debugTables()
     outputTables()
