@@ -111,7 +111,7 @@ void checkOblique(int tableRow)
     MirrorPlane plane = MirrorPlane(p, n);
     ObliqueProjection found = makeObliqueProjection(v, plane);
     vec4 row = depthRow(found.clipFromView);
-    vec3 nVS = safeNormalize(directionVSFromWS(v, n), vec3(0.0));
+    vec3 nVS = safeNormalize(directionVSFromWS(v, safeNormalize(n, vec3(0.0))), vec3(0.0));
     vec3 pVS = positionVSFromWS(v, p);
     vec2 side = vec2(nVS.x < 0.0 ? -0.8 : 0.8, nVS.y < 0.0 ? -0.5 : 0.5);
     vec3 along = o ? vec3(0.0, 0.0, -1.0) : vec3(x * 0.8, y * 0.5, -1.0);
@@ -264,12 +264,12 @@ OwnHit traceOwn(OwnRay ray)
     if (row >= 0 && row <= 20) checkReflection(row);
     if (row >= 21 && row <= 51) checkView(row);
     if (row >= 52 && row <= 105) checkSlope(row);
-    if (row >= 106 && row <= 149) checkOblique(row);
-    if (row >= 150 && row <= 273) checkFromOblique(row);
-    if (row >= 274 && row <= 337) checkLookUp(row);
-    if (row >= 338 && row <= 384) checkOnBorder(row);
-    if (row >= 385 && row <= 392) checkThresholds(row);
-    if (row >= 393 && row <= 393) checkDepthRow(row);
-    if (row >= 394 && row <= 405) checkAlignment(row);
+    if (row >= 106 && row <= 154) checkOblique(row);
+    if (row >= 155 && row <= 278) checkFromOblique(row);
+    if (row >= 279 && row <= 342) checkLookUp(row);
+    if (row >= 343 && row <= 389) checkOnBorder(row);
+    if (row >= 390 && row <= 397) checkThresholds(row);
+    if (row >= 398 && row <= 398) checkDepthRow(row);
+    if (row >= 399 && row <= 410) checkAlignment(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

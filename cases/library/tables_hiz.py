@@ -184,7 +184,7 @@ def march(kind, px, py, lift, d, minLevel, maxLevel, most, bias):
             change = rate * max(leave - enter, pixelLength)
             sinksAtStart = decide(change, -tolerance / 64, 1e-2, 0) if isStart else False
             front2 = not sure(last, -(0.0 if behind else noise))
-            front2 = front2 and not (isStart and sinksAtStart)
+            front2 = front2 and not (isStart and sinksAtStart and not off)
             close = not sure(tolerance, last) and front2
             test = [2 if hit else 1, at2, hitAffine, front2, attached and close and not (isStart and off), behind and not isStart]
         position = [start[i] + delta[i] * s for i in range(2)]

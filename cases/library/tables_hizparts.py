@@ -106,9 +106,9 @@ def testPlane(o, q, cell, wide, tall, level, near, a, d, pixelLength, a0, da, in
             raise Undecided
         s = min(max(crossing, 0.0 if behind else enter), leave)
         affine = num(onPlane + planeRate * (s - enter))
-    # On the start's plane: behind it as soon as the ray sinks by more than a rounding, over a pixel at least.
+    # On the start's plane, not well in front of it: behind as soon as the ray sinks by more than a rounding, over a pixel at least.
     decisions.append((leave - enter > pixelLength, wide > tall))
-    sunk = isStart and less(num(rate * max(leave - enter, pixelLength)), -tolerance / 64, 1e-7 * abs(middle))
+    sunk = isStart and not off and less(num(rate * max(leave - enter, pixelLength)), -tolerance / 64, 1e-7 * abs(middle))
     frontAfter = not less(last, 0.0 if behind else -noise, rough) and not sunk
     close = frontAfter and not less(tolerance, last, rough)
     return [kHit if hit else kCell, s, affine, frontAfter, attached and close and not (isStart and off), behind and not isStart]

@@ -64,7 +64,7 @@ v.farDistance = far;"""
         """Status; then stored depth on the mirror along the view ray through (x, y), and that of the corner farthest from it."""
         if not (isTowards(n) and isNumber(point)):
             return [2, 0, 0]
-        nv, pv = unit(toViewDir(n)), toView(point)
+        nv, pv = unit(toViewDir(unit(n))), toView(point)
         distance = lambda q: dot(nv, sub(q, pv))
         if not distance([0, 0, 0]) < -1e-4:
             return [1, 0, 0]
@@ -80,6 +80,8 @@ v.farDistance = far;"""
         return dot(nv, [side[0], side[1], -1]) - dot(nv, pv) * (0 if far >= 65504 else 1 / far)
     front = [([0, -1, 0], [1, -0.5, -1]), ([-3, 4, -2], [-2, 1, -2]), ([-2, 4, 0], [-1, 1.5, -2]), ([0, 3, 1], [-1, 0.25, -2])]
     rowsOblique = [[o, r, far, p, n, 0.3, -0.4] for o in (0, 1) for r in (0, 1) for far in (64, 65504) for p, n in front]
+    # A normal that is just long enough in the world's axes, and would not be in the camera's.
+    rowsOblique += [[0, 1, 64, front[0][0], mul(axis, 6.3e-31), 0.3, -0.4] for axis in kAxes] + [[0, 1, 64, add(kEye, mul(kAxes[2], -5)), mul(kAxes[2], sign * 6.3e-31), 0.3, -0.4] for sign in (1, -1)]
     rowsOblique += [[o, 1, 64, p, n, 0.3, -0.4] for o in (0, 1) for p, n in ((kEye, [0, 1, 0]), ([0, 0, 0], [0, 0, 0]), ([kNaN, 0, 0], [0, 1, 0]), (add(kEye, mul(kAxes[2], 5)), kAxes[2]), ([0, -1, 0], [0, 1, 0]),
                      (sub(kEye, mul(kAxes[2], 100)), mul(kAxes[2], -1)))]
     glsl = """View v = tableView(o, r);
@@ -87,7 +89,7 @@ v.farDistance = far;
 MirrorPlane plane = MirrorPlane(p, n);
 ObliqueProjection found = makeObliqueProjection(v, plane);
 vec4 row = depthRow(found.clipFromView);
-vec3 nVS = safeNormalize(directionVSFromWS(v, n), vec3(0.0));
+vec3 nVS = safeNormalize(directionVSFromWS(v, safeNormalize(n, vec3(0.0))), vec3(0.0));
 vec3 pVS = positionVSFromWS(v, p);
 vec2 side = vec2(nVS.x < 0.0 ? -0.8 : 0.8, nVS.y < 0.0 ? -0.5 : 0.5);
 vec3 along = o ? vec3(0.0, 0.0, -1.0) : vec3(x * 0.8, y * 0.5, -1.0);

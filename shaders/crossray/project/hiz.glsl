@@ -204,10 +204,10 @@ HizTest testHizPlane(ScreenFrame frame, ScreenRay ray, HizState state, HizCell c
     float sHit = choose(isCrossing, sCrossing, cell.enter);
     float hitAffine = choose(isCrossing, planeAffine + planeRate * (sCrossing - cell.enter), rayAffine);
     // A ray that sinks into the plane on which it stands is behind it at once, be the gap as small as it may.
-    // Judged over a pixel at least: a ray may start at its cell's border.
+    // Judged over a pixel at least: a ray may start at its cell's border. One that starts well in front only comes nearer.
     bool sinksAtStart = rate * max(cell.leave - cell.enter, ray.pixelLength) < -kHizSinkTolerance * tolerance;
     bool isInFront = leave >= -choose(isBehind, 0.0, noise);
-    bool inFront = isInFront && !(state.isStart && sinksAtStart);
+    bool inFront = isInFront && !(state.isStart && sinksAtStart && !isOffPlane);
     bool isClose = leave <= tolerance && inFront;
     bool stands = !(state.isStart && isOffPlane);
     bool keepsClose = isClose && stands;

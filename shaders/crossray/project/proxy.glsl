@@ -112,7 +112,8 @@ ProxyHit projectProxySphere(vec3 originWS, vec3 dirWS, vec3 centerWS, float radi
     float range = length(originPS);
     float inside = range <= radius + margin ? max(radius - range, 0.0) : radius - range;
     float product = inside * (radius + range);
-    float leave = along > 0.0 ? safeDivide(product, along + halfChord, 0.0) : halfChord - along;
+    // A product that overflows is that of an origin far outside, whose ray leaves the sphere behind it.
+    float leave = along > 0.0 ? safeDivide(product, along + halfChord, min(product, 0.0)) : halfChord - along;
     bool meets = touches && leave >= -margin;
     if (meets) return makeProxyHit(originWS, dir, leave);
     return makeProxyMiss(originWS, kHitReasonNoProxyHit);
