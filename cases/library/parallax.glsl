@@ -116,9 +116,9 @@ void checkShapes(int tableRow)
 OwnHit traceOwn(OwnRay ray)
 {
     int row = ray.pixel.y;
-    if (row >= 0 && row <= 252) checkParallax(row);
-    if (row >= 253 && row <= 253) checkBeyond(row);
-    if (row >= 254 && row <= 455) checkBoxProjection(row);
-    if (row >= 456 && row <= 504) checkShapes(row);
+    if (row >= 0 && row <= 253) checkParallax(row);
+    if (row >= 254 && row <= 254) checkBeyond(row);
+    if (row >= 255 && row <= 456) checkBoxProjection(row);
+    if (row >= 457 && row <= 505) checkShapes(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

@@ -264,12 +264,12 @@ OwnHit traceOwn(OwnRay ray)
     if (row >= 0 && row <= 20) checkReflection(row);
     if (row >= 21 && row <= 51) checkView(row);
     if (row >= 52 && row <= 105) checkSlope(row);
-    if (row >= 106 && row <= 154) checkOblique(row);
-    if (row >= 155 && row <= 278) checkFromOblique(row);
-    if (row >= 279 && row <= 342) checkLookUp(row);
-    if (row >= 343 && row <= 389) checkOnBorder(row);
-    if (row >= 390 && row <= 397) checkThresholds(row);
-    if (row >= 398 && row <= 398) checkDepthRow(row);
-    if (row >= 399 && row <= 410) checkAlignment(row);
+    if (row >= 106 && row <= 178) checkOblique(row);
+    if (row >= 179 && row <= 302) checkFromOblique(row);
+    if (row >= 303 && row <= 366) checkLookUp(row);
+    if (row >= 367 && row <= 413) checkOnBorder(row);
+    if (row >= 414 && row <= 421) checkThresholds(row);
+    if (row >= 422 && row <= 422) checkDepthRow(row);
+    if (row >= 423 && row <= 434) checkAlignment(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

@@ -79,6 +79,10 @@ v.farDistance = far;"""
             return dot(nv, sub([side[0], side[1], -far], pv))
         return dot(nv, [side[0], side[1], -1]) - dot(nv, pv) * (0 if far >= 65504 else 1 / far)
     front = [([0, -1, 0], [1, -0.5, -1]), ([-3, 4, -2], [-2, 1, -2]), ([-2, 4, 0], [-1, 1.5, -2]), ([0, 3, 1], [-1, 0.25, -2])]
+    # The corner that is farthest from the mirror, in each quarter of the image.
+    for x, y in ((-1, 0.5), (0.5, 1), (-0.5, -1)):
+        n = add(add(mul(kAxes[0], x), mul(kAxes[1], y)), mul(kAxes[2], -1))
+        front.append((add(kEye, mul(n, 2)), n))
     rowsOblique = [[o, r, far, p, n, 0.3, -0.4] for o in (0, 1) for r in (0, 1) for far in (64, 65504) for p, n in front]
     # A normal that is just long enough in the world's axes, and would not be in the camera's.
     rowsOblique += [[0, 1, 64, front[0][0], mul(axis, 6.3e-31), 0.3, -0.4] for axis in kAxes] + [[0, 1, 64, add(kEye, mul(kAxes[2], -5)), mul(kAxes[2], sign * 6.3e-31), 0.3, -0.4] for sign in (1, -1)]

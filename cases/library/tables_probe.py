@@ -183,6 +183,8 @@ def parallaxTables():
     # The hit is no number: the origin's magnitudes add up to one less than half a step below 1e37, and the way there to more.
     most = 1e37 - 2.0 ** 99
     beyond = [[[most, 2.5e29, 0], [0, 1, 0], 2, [most, 2.5e29, 0], 0, [1, 9e28, 1], 0, [0, 0, 0]]]
+    # A least distance below 1 m is one, too.
+    rows += [[[2.75, 0, 0], [1, 0, 0], 2, [0, 0, 0], 0, half, 0.5, [0, 0, 0]]]
     # The capture is beyond what is seen on all axes.
     rows += [[[0.5, 0, 0], [-1, -2, -3], 2, [0, 0, 0], 0, half, 0, [4, 5, 6]]]
     low, high = [-3, -1, -2], [2, 3, 4]

@@ -43,6 +43,8 @@ namespace {
 // A worker keeps programs, and a driver's code for them: after so many it is replaced.
 constexpr size_t kProgramsAWorker = 250;
 constexpr size_t kSeenKept = 3;
+// Groups of programs that are compiled, the likeliest first, for a function that left no line in any.
+constexpr int kMostWithoutLines = 12;
 
 // Programs of one mutant, each made on first need.
 class MutantPrograms {
@@ -70,7 +72,8 @@ class MutantPrograms {
             made.done = true;
             for (const ProgramKey& program : programs) {
                 const std::vector<uint32_t>& own = library_.compile(program);
-                const bool isHeld = reaches(program) && (!isInside_ || library_.holds(program, name_, functions_));
+                const bool isHeld =
+                    reaches(program) && (!trustsLines_ || !isInside_ || library_.holds(program, name_, functions_));
                 isHeld_ = isHeld_ || isHeld;
                 made.code.push_back(isHeld ? compile(program) : own);
                 made.isChanged = made.isChanged || made.code.back() != own;
@@ -79,6 +82,14 @@ class MutantPrograms {
         return made.isChanged ? &made.code : nullptr;
     }
     bool isKnown(size_t group) const { return made_.contains(group); }
+    // From now on the lines of the optimised code do not say what it holds: a function that only calls another leaves
+    // none of its own.
+    void distrustLines()
+    {
+        trustsLines_ = false;
+        std::erase_if(made_, [](const auto& made) { return !made.second.isChanged; });
+    }
+    bool trustsLines() const { return trustsLines_; }
     // Whether the optimised code of any program so far holds what the change is in.
     bool isHeld() const { return isHeld_; }
     size_t count() const { return made_.size(); }
@@ -100,6 +111,7 @@ class MutantPrograms {
     std::set<std::string> functions_;
     bool isInside_;
     bool isHeld_ = false;
+    bool trustsLines_ = true;
     MutantLibrary::Mutant mutant_;
     std::map<ProgramKey, std::vector<uint32_t>> code_;
     std::map<size_t, Made> made_; // by group
@@ -250,13 +262,28 @@ class Hunt {
         for (const size_t candidate : candidates) {
             if (cases_[candidate]->isAbout(result.mutation.file)) likely.insert(candidate);
         }
+        askLikely(result, core, programs, candidates, likely);
+        if (result.end == MutantEnd::kUnreached) {
+            programs.distrustLines();
+            askLikely(result, core, programs, candidates, likely);
+            // A call that a constant decides, or that is left out, is in nobody's code.
+            if (result.end == MutantEnd::kSameCode) result.end = MutantEnd::kUnreached;
+        }
+        replaceWorker(core, programs.count());
+    }
+
+    void askLikely(MutantResult& result, int core, MutantPrograms& programs, const std::vector<size_t>& candidates,
+                   const std::set<size_t>& likely)
+    {
         CaseOdds::Choice choice = odds_->start(result.mutation.file, result.mutation.function, candidates, likely);
+        int unchanged = 0;
         while (const std::optional<size_t> next =
                    choice.next([&](size_t index) { return estimate(index, programs); })) {
             AskedCase& testCase = *cases_[*next];
             const auto* code = programs.of(groupOf_[*next], testCase.programs());
             if (code == nullptr) {
                 if (result.end == MutantEnd::kUnreached && programs.isHeld()) result.end = MutantEnd::kSameCode;
+                if (!programs.trustsLines() && ++unchanged == kMostWithoutLines) break;
                 choice.dropIf([&](size_t index) { return groupOf_[index] == groupOf_[*next]; });
                 continue;
             }
@@ -277,7 +304,6 @@ class Hunt {
             keepSeen(result.seen, std::move(finding.seen));
             if (result.asked == options_.askAtMost) break;
         }
-        replaceWorker(core, programs.count());
     }
 
     // Milliseconds that asking the case is likely to take.

@@ -107,7 +107,7 @@ ObliqueProjection makeObliqueProjection(View mirroredView, MirrorPlane plane)
         return ObliqueProjection(clip, kPlanarDegeneratePlane);
     // In view space: dot(plane, (p, 1)) is the distance in front of the mirror.
     vec3 nWS = safeNormalize(plane.normalWS, vec3(0.0)); // before the turn, which may make the shortest too short
-    vec3 nVS = safeNormalize(directionVSFromWS(mirroredView, nWS), vec3(0.0));
+    vec3 nVS = directionVSFromWS(mirroredView, nWS);
     vec3 pointVS = positionVSFromWS(mirroredView, plane.pointWS);
     vec4 planeVS = vec4(nVS, -dot(nVS, pointVS));
     bool isBehind = planeVS.w < -kPlanarSmallestDistance; // where the eye of a mirrored camera is
