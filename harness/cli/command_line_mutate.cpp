@@ -35,6 +35,9 @@ void addMutate(CLI::App& app, CommandLine& line)
             "Ask at most N cases about a mutant, the likeliest first, before it counts as survived; default: all")
         ->type_name("N")
         ->check(CLI::Range(size_t{1}, size_t{1000000}));
+    verb.add_option("--again", options.again,
+                    "A mutation.json: what it tells as caught counts as that, and the others are asked about again")
+        ->type_name("FILE");
     verb.add_option("--min-score", options.minScore, "Exit code 1 below this score")
         ->type_name("PERCENT")
         ->check(CLI::Range(0.0, 100.0));

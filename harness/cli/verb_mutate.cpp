@@ -1,4 +1,5 @@
 #include "harness/cli/verbs.h"
+#include "harness/mutate/earlier_hunt.h"
 #include "harness/mutate/equivalent.h"
 #include "harness/mutate/hunt_report.h"
 #include "harness/run/environment.h"
@@ -141,6 +142,7 @@ int mutateShaders(const GlobalOptions& global, const MutateOptions& options)
     std::vector<EquivalentMutant> equivalents;
     if (!equivalentsFile.empty()) equivalents = readEquivalents(equivalentsFile);
     checkEquivalents(equivalents, mutations);
+    const EarlierHunt earlier = options.again.empty() ? EarlierHunt{} : EarlierHunt(options.again);
     HuntChoice choice;
     choice.planted = mutations.size();
     choice.seed = options.seed;
@@ -176,6 +178,8 @@ int mutateShaders(const GlobalOptions& global, const MutateOptions& options)
                                [&](const EquivalentMutant& entry) { return entry.matches(mutation); });
         };
     }
+    if (!options.again.empty())
+        hunting.findCaught = [&](const Mutation& mutation) { return earlier.findCaught(mutation); };
     hunting.report = makeReporter(options, std::chrono::steady_clock::now());
     const HuntResult result = hunt(library, selected.cases, mutations, hunting);
     writeResults(result, choice, options);

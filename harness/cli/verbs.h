@@ -204,6 +204,7 @@ struct MutateOptions {
     size_t askAtMost = 0;        // 0: all
     double minScore = 0;         // percent
     std::string json, output;    // a file; a folder; empty: none
+    std::string again;           // mutation.json of an earlier hunt; empty: none
     std::string equivalents;     // file; empty: the source tree's
     bool tryEquivalents = false; // run them like the others
     bool list = false, verbose = false;

@@ -235,8 +235,12 @@ class Hunt {
         MutantResult& result = result_.mutants[index];
         result.mutation = mutations_[index];
         const bool isEquivalent = options_.isEquivalent && options_.isEquivalent(result.mutation);
+        const MutantResult* const earlier =
+            options_.findCaught && !isEquivalent ? options_.findCaught(result.mutation) : nullptr;
         if (isEquivalent) {
             result.end = MutantEnd::kEquivalent;
+        } else if (earlier != nullptr) {
+            takeOver(result, *earlier);
         } else {
             try {
                 askCases(result, core);
@@ -245,10 +249,21 @@ class Hunt {
                 result.reason = std::string(error.what()).substr(0, std::string_view(error.what()).find('\n'));
             }
         }
-        result.seconds = watch.lap() / 1000;
+        if (!result.isOld) result.seconds = watch.lap() / 1000;
         const std::lock_guard lock(mutex_);
         ++done_;
         if (options_.report) options_.report(result, done_, mutations_.size());
+    }
+
+    void takeOver(MutantResult& result, const MutantResult& earlier)
+    {
+        const Mutation mutation = result.mutation;
+        result = earlier;
+        result.mutation = mutation;
+        result.isOld = true;
+        const auto by = std::find_if(result_.cases.begin(), result_.cases.end(),
+                                     [&](const CaseScore& score) { return score.name == earlier.caughtBy; });
+        if (by != result_.cases.end()) note(static_cast<size_t>(by - result_.cases.begin()), true);
     }
 
     void askCases(MutantResult& result, int core)

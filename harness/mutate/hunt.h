@@ -41,6 +41,7 @@ struct MutantResult {
     size_t asked = 0;                 // cases that ran
     size_t reached = 0;               // cases whose variants reach the function
     double seconds = 0;
+    bool isOld = false; // caught by an earlier hunt, and not asked again
 };
 
 struct CaseScore {
@@ -58,7 +59,9 @@ struct HuntOptions {
     int idleTries = 0;
     size_t askAtMost =
         0; // cases a mutant, the likeliest first, after which it counts as survived; 0: all that reach it
-    std::function<bool(const Mutation&)> isEquivalent;                        // empty: none is
+    std::function<bool(const Mutation&)> isEquivalent; // empty: none is
+    // What an earlier hunt tells of a mutant that it caught; empty or nullptr: it is asked about.
+    std::function<const MutantResult*(const Mutation&)> findCaught;
     std::function<void(const MutantResult&, size_t done, size_t all)> report; // one at a time, from any thread
 };
 

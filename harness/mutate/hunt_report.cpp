@@ -66,12 +66,23 @@ Json toJson(const HuntCounts& counts)
 Json toJson(const MutantResult& mutant)
 {
     const Mutation& mutation = mutant.mutation;
-    Json json{{"file", mutation.file},           {"line", mutation.line},           {"column", mutation.column},
-              {"function", mutation.function},   {"operation", mutation.operation}, {"was", mutation.was},
-              {"becomes", mutation.replacement}, {"before", mutation.before},       {"after", mutation.after},
-              {"end", nameOf(mutant.end)},       {"caughtBy", mutant.caughtBy},     {"how", mutant.how},
-              {"reason", mutant.reason},         {"reached", mutant.reached},       {"asked", mutant.asked},
-              {"seconds", mutant.seconds}};
+    Json json{{"file", mutation.file},
+              {"line", mutation.line},
+              {"column", mutation.column},
+              {"function", mutation.function},
+              {"operation", mutation.operation},
+              {"was", mutation.was},
+              {"becomes", mutation.replacement},
+              {"before", mutation.before},
+              {"after", mutation.after},
+              {"end", nameOf(mutant.end)},
+              {"caughtBy", mutant.caughtBy},
+              {"how", mutant.how},
+              {"reason", mutant.reason},
+              {"reached", mutant.reached},
+              {"asked", mutant.asked},
+              {"seconds", mutant.seconds},
+              {"old", mutant.isOld}};
     Json seen = Json::array();
     for (const SeenDifference& one : mutant.seen) {
         seen.push_back({{"case", one.testCase},
@@ -184,6 +195,13 @@ std::string formatHuntMarkdown(const HuntResult& hunt, const HuntChoice& choice)
                             "caught by others, so "
                             "the score is a lower bound.\n\n",
                             choice.askAtMost);
+    }
+    const auto old = std::count_if(hunt.mutants.begin(), hunt.mutants.end(),
+                                   [](const MutantResult& mutant) { return mutant.isOld; });
+    if (old > 0) {
+        text += fmt::format("{} of those that were caught were so by an earlier run (`--again`); the others were asked "
+                            "about anew.\n\n",
+                            old);
     }
     std::vector<HuntCounts> rows = countByFile(hunt);
     rows.push_back(all);
