@@ -7,10 +7,13 @@
 #include <fmt/format.h>
 
 #include <arpa/inet.h>
+#include <netinet/in.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
+#include <cstdio>
 
 using namespace crossray;
 
@@ -52,29 +55,50 @@ void replaceAll(std::string& text, std::string_view word, const std::string& by)
         text.replace(at, word.size(), by);
 }
 
-// Says it, ends its side, and hears the answer out.
+// 127.0.0.0/8 is this host's, whole.
+sockaddr_in loopback(uint32_t host, uint16_t port)
+{
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(port);
+    address.sin_addr.s_addr = htonl((127u << 24) + host);
+    return address;
+}
+
+// Who ends its side first keeps its port for a minute, and one address has 28,000 of them: where the kernel gives none
+// of these out again (net.ipv4.tcp_tw_reuse), a minute's questions come from many addresses.
+sockaddr_in nextLoopback()
+{
+    constexpr uint32_t kFirst = 2, kAddresses = 64;
+    static uint32_t count = 0;
+    return loopback(kFirst + count++ % kAddresses, 0);
+}
+
+// Says it, ends its side, and hears the answer out. libFuzzer's clock interrupts calls.
 std::string ask(int port, const std::string& text)
 {
     const int client = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
     fuzz::expect(client >= 0, "there is a socket");
-    // Closed at once and for good: a hundred thousand connections would use up the ports.
-    const linger none{1, 0};
-    ::setsockopt(client, SOL_SOCKET, SO_LINGER, &none, sizeof(none));
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(static_cast<uint16_t>(port));
-    ::inet_pton(AF_INET, "127.0.0.1", &address.sin_addr);
-    fuzz::expect(::connect(client, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0,
-                 "the server takes connections");
+    const sockaddr_in from = nextLoopback();
+    const int late =
+        1; // the port is chosen as it connects, so that it needs to be free for this pair of addresses alone
+    ::setsockopt(client, IPPROTO_IP, IP_BIND_ADDRESS_NO_PORT, &late, sizeof(late));
+    const bool isBound = ::bind(client, reinterpret_cast<const sockaddr*>(&from), sizeof(from)) == 0;
+    fuzz::expect(isBound, "there is an address to ask from");
+    const sockaddr_in to = loopback(1, static_cast<uint16_t>(port));
+    const bool isConnected =
+        TEMP_FAILURE_RETRY(::connect(client, reinterpret_cast<const sockaddr*>(&to), sizeof(to))) == 0;
+    if (!isConnected) std::perror("connect");
+    fuzz::expect(isConnected, "the server takes connections");
     for (size_t sent = 0; sent < text.size();) {
-        const ssize_t count = ::send(client, text.data() + sent, text.size() - sent, MSG_NOSIGNAL);
+        const ssize_t count = TEMP_FAILURE_RETRY(::send(client, text.data() + sent, text.size() - sent, MSG_NOSIGNAL));
         if (count <= 0) break; // it has heard enough
         sent += static_cast<size_t>(count);
     }
     ::shutdown(client, SHUT_WR);
     std::string answer;
     char buffer[4096];
-    for (ssize_t count; (count = ::recv(client, buffer, sizeof(buffer), 0)) > 0;)
+    for (ssize_t count; (count = TEMP_FAILURE_RETRY(::recv(client, buffer, sizeof(buffer), 0))) > 0;)
         answer.append(buffer, static_cast<size_t>(count));
     ::close(client);
     return answer;
