@@ -267,9 +267,9 @@ OwnHit traceOwn(OwnRay ray)
     if (row >= 106 && row <= 178) checkOblique(row);
     if (row >= 179 && row <= 302) checkFromOblique(row);
     if (row >= 303 && row <= 366) checkLookUp(row);
-    if (row >= 367 && row <= 413) checkOnBorder(row);
-    if (row >= 414 && row <= 421) checkThresholds(row);
-    if (row >= 422 && row <= 422) checkDepthRow(row);
-    if (row >= 423 && row <= 434) checkAlignment(row);
+    if (row >= 367 && row <= 429) checkOnBorder(row);
+    if (row >= 430 && row <= 437) checkThresholds(row);
+    if (row >= 438 && row <= 438) checkDepthRow(row);
+    if (row >= 439 && row <= 450) checkAlignment(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

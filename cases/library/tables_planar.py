@@ -145,7 +145,7 @@ float kept = number(found.clipFromView[0].x == clip[0].x && found.clipFromView[1
              (at(5, 0, 2), ahead), (at(-5, 0, 2), ahead), (at(0, 3, 2), ahead), (at(0, -3, 2), ahead), (at(0, 0, 2), mul(ahead, -1)), (at(0, 0, 2), [0, 0, 0]), ([kNaN, 0, 0], ahead), (at(0.3, 0.2, 80), ahead),
              (at(0.2, 0.1, 3), [2, 1, -1]), (at(0.2, 0.1, 3), add(kAxes[0], mul(kAxes[2], -0.01))), (at(0.2, 0.1, 3), add(kAxes[1], mul(kAxes[2], 0.01))))]
     plain, forward = [0, 0, -1, -0.5], [0, 0, -1]
-    borders = [[[x, y, -z], plain, forward] for z in (0.5, 1, 2, 0.25) for x, y in ((0, 0), (1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (0.5, 0.25), (-0.5, 0.5), (2, 0), (0, -2))]
+    borders = [[[x, y, -z], plain, forward] for z in (0.5, 1, 2, 0.25) for x, y in ((0, 0), (1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (0.5, 0.25), (-0.5, 0.5), (2, 0), (0, -2), (1.25, 0), (-1.25, 0), (0, 1.25), (0, -1.25))]
     # A reflection at a right angle; beyond the near plane, but beside the eye or behind it.
     borders += [[[0, 0, -1], plain, [1, 0, 0]], [[0, 0, -1], plain, [0, -2, 0]]] + [[p, [0, 1, 0, 0], forward] for p in ([0, 1, -1], [0, 1, 0], [1, 0, 0], [0, 0, 0], [0, 1, 1])]
 
