@@ -111,7 +111,7 @@ OwnHit traceOwn(OwnRay ray)
     int row = ray.pixel.y;
     if (row >= 0 && row <= 117) checkBox(row);
     if (row >= 118 && row <= 129) checkOnFace(row);
-    if (row >= 130 && row <= 176) checkSphere(row);
-    if (row >= 177 && row <= 190) checkInfinite(row);
+    if (row >= 130 && row <= 177) checkSphere(row);
+    if (row >= 178 && row <= 191) checkInfinite(row);
     return OwnHit(kHitClassHit, kHitReasonNone, wrongAnswer, float(wrongCheck), number(wrongCheck == 0));
 }

@@ -122,7 +122,7 @@ def proxyTables():
     # A ray that touches, that passes within the tolerance, and just beyond it; an origin within the tolerance of the sphere, from which the
     # ray leaves at a flat angle; one near a large sphere, where the difference of the roots cancels; a square that no float holds.
     spheres += [[[-7, 3, 0], [1, 0, 0], [0, 0, 0], 3], [[-200, 0, 100.00003], [1, 0, 0], [0, 0, 0], 100], [[-7, 0, 3.00015], [1, 0, 0], [0, 0, 0], 3],
-                [[1 + 5e-6, 0, 0], [0.005, 1, 0], [0, 0, 0], 1], [[100.0005, 0, 0], [1, 0, 0], [0, 0, 0], 100], [[8191.5, 0, 0], [3, 4, 0], [0, 0, 0], 8192], [[0, 0, 0], [1, 2, 3], [0, 0, 0], 1e20],
+                [[1 + 5e-6, 0, 0], [0.005, 1, 0], [0, 0, 0], 1], [[100.0005, 0, 0], [1, 0, 0], [0, 0, 0], 100], [[8191.5, 0, 0], [3, 4, 0], [0, 0, 0], 8192], [[0, 0, 0], [1, 2, 3], [0, 0, 0], 1e20], [[2, 0, 0], [1, 0, 0], [0, 0, 0], 1e20],
                 [[8192, 0, 0], [0.9, 8192, 0], [0, 0, 0], 8192]]  # and one on it, along which it would be noise
     out = ["hit.positionWS.x", "hit.positionWS.y", "hit.positionWS.z", "hit.distance", "number(hit.hit)", "float(hit.reason)"]
     write("proxy", "A ray meets a box or a sphere from inside where its far face is, and every ray that meets none says why.", [

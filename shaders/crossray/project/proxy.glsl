@@ -112,8 +112,8 @@ ProxyHit projectProxySphere(vec3 originWS, vec3 dirWS, vec3 centerWS, float radi
     float range = length(originPS);
     float inside = range <= radius + margin ? max(radius - range, 0.0) : radius - range;
     float product = inside * (radius + range);
-    // A product that overflows is that of an origin far outside, whose ray leaves the sphere behind it.
-    float leave = along > 0.0 ? safeDivide(product, along + halfChord, min(product, 0.0)) : halfChord - along;
+    // A product that overflows stays infinite: below 0 the sphere is far behind, above it its end is beyond all numbers.
+    float leave = along > 0.0 ? safeDivide(product, along + halfChord, product) : halfChord - along;
     bool meets = touches && leave >= -margin;
     if (meets) return makeProxyHit(originWS, dir, leave);
     return makeProxyMiss(originWS, kHitReasonNoProxyHit);
