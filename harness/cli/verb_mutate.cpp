@@ -106,19 +106,39 @@ void writeResults(const HuntResult& hunt, const HuntChoice& choice, const Mutate
     writeFileWhole(fs::path(options.output) / "mutation.json", formatHuntJson(hunt, choice));
 }
 
+// True once every ten seconds.
+class Beat {
+  public:
+    bool isDue()
+    {
+        const auto now = std::chrono::steady_clock::now();
+        if (now - last_ <= std::chrono::seconds(10)) return false;
+        last_ = now;
+        return true;
+    }
+
+  private:
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
 // A line a mutant, or every ten seconds.
 auto makeReporter(const MutateOptions& options, std::chrono::steady_clock::time_point start)
 {
-    return [&options, start, last = start](const MutantResult& result, size_t done, size_t all) mutable {
-        const auto now = std::chrono::steady_clock::now();
+    return [&options, start, beat = Beat()](const MutantResult& result, size_t done, size_t all) mutable {
         if (options.verbose) {
             fmt::print(stderr, "{:<10} {:5.1f} s {:3} asked  {}  {}\n", nameOf(result.end), result.seconds,
                        result.asked, result.mutation.id(), result.caughtBy);
-        } else if (now - last > std::chrono::seconds(10)) {
-            fmt::print(stderr, "{} of {} mutants, {:.0f} s\n", done, all,
-                       std::chrono::duration<double>(now - start).count());
-            last = now;
+        } else if (beat.isDue()) {
+            const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+            fmt::print(stderr, "{} of {} mutants, {:.0f} s\n", done, all, taken.count());
         }
+    };
+}
+
+auto makeIdleReporter()
+{
+    return [beat = Beat()](size_t done, size_t all) mutable {
+        if (beat.isDue()) fmt::print(stderr, "idle cases: {} of {} sets of programs\n", done, all);
     };
 }
 
@@ -181,6 +201,7 @@ int mutateShaders(const GlobalOptions& global, const MutateOptions& options)
     if (!options.again.empty())
         hunting.findCaught = [&](const Mutation& mutation) { return earlier.findCaught(mutation); };
     hunting.report = makeReporter(options, std::chrono::steady_clock::now());
+    hunting.reportIdle = makeIdleReporter();
     const HuntResult result = hunt(library, selected.cases, mutations, hunting);
     writeResults(result, choice, options);
     printResults(result, options);

@@ -45,6 +45,8 @@ constexpr size_t kProgramsAWorker = 250;
 constexpr size_t kSeenKept = 3;
 // Groups of programs that are compiled, the likeliest first, for a function that left no line in any.
 constexpr int kMostWithoutLines = 12;
+// Mutants that leave a case's code as it was, for each that it may be asked about, before its others are given up.
+constexpr int kUnchangedATry = 8;
 
 // Programs of one mutant, each made on first need.
 class MutantPrograms {
@@ -139,7 +141,8 @@ class Hunt {
         Stopwatch watch;
         result_.fingerprint = pool_.fingerprint(options_.backend);
         onAllThreads(mutations_.size(), [&](size_t index, int core) { huntOne(index, core); });
-        if (options_.idleTries > 0) onAllThreads(cases_.size(), [&](size_t index, int core) { findIdle(index, core); });
+        if (options_.idleTries > 0)
+            onAllThreads(groups_.size(), [&](size_t group, int core) { findIdle(group, core); });
         result_.seconds = watch.lap() / 1000;
         return std::move(result_);
     }
@@ -363,29 +366,42 @@ class Hunt {
         pool_.restart(options_.backend, core);
     }
 
-    // A case that was never the first to catch a mutant may catch one all the same.
-    void findIdle(size_t index, int core)
+    // A case that was never the first to catch a mutant may catch one all the same. Those with the same programs are
+    // asked together, since most of the time goes into making a mutant's.
+    void findIdle(size_t group, int core)
     {
-        CaseScore& score = result_.cases[index];
-        if (score.kills > 0 || !isReady(index, core)) return;
-        int tries = 0;
-        for (size_t i = 0; i < result_.mutants.size() && tries < options_.idleTries; ++i) {
+        std::vector<size_t> waiting;
+        for (size_t i = 0; i < cases_.size(); ++i) {
+            if (groupOf_[i] == group && result_.cases[i].kills == 0 && isReady(i, core)) waiting.push_back(i);
+        }
+        int tries = 0, unchanged = 0;
+        for (size_t i = 0; i < result_.mutants.size() && !waiting.empty(); ++i) {
+            if (tries == options_.idleTries || unchanged == options_.idleTries * kUnchangedATry) break;
             // Spread over the files.
-            const MutantResult& mutant = result_.mutants[(i * 7919 + index * 104729) % result_.mutants.size()];
+            const MutantResult& mutant = result_.mutants[(i * 7919 + group * 104729) % result_.mutants.size()];
             if (mutant.end != MutantEnd::kCaught || mutant.how == "timeout") continue;
             MutantPrograms programs = makePrograms(mutant.mutation);
-            const auto& own = cases_[index]->programs();
-            if (std::none_of(own.begin(), own.end(), [&](const ProgramKey& one) { return programs.reaches(one); }))
+            const bool isReached = std::any_of(groups_[group].begin(), groups_[group].end(),
+                                               [&](const ProgramKey& one) { return programs.reaches(one); });
+            if (!isReached) continue;
+            const auto* code = programs.of(group, groups_[group]);
+            if (code == nullptr) {
+                ++unchanged;
                 continue;
-            const auto* code = programs.of(groupOf_[index], own);
-            if (code == nullptr) continue;
+            }
             ++tries;
-            const bool isCaught = cases_[index]->ask(*code, pool_, options_.backend, core).isCaught;
-            note(index, isCaught);
+            std::erase_if(waiting, [&](size_t index) {
+                const bool isCaught = cases_[index]->ask(*code, pool_, options_.backend, core).isCaught;
+                note(index, isCaught);
+                return isCaught;
+            });
             replaceWorker(core, 1);
-            if (isCaught) return;
         }
-        score.isIdle = tries > 0;
+        for (const size_t index : waiting)
+            result_.cases[index].isIdle = tries > 0;
+        const std::lock_guard lock(mutex_);
+        ++groupsDone_;
+        if (options_.reportIdle) options_.reportIdle(groupsDone_, groups_.size());
     }
 
     MutantLibrary& library_;
@@ -401,7 +417,7 @@ class Hunt {
     std::map<std::string, std::set<std::string>> users_; // functions by the constant that they use
     std::unique_ptr<CaseOdds> odds_;
     std::mutex mutex_; // guards the cases' scores, and the reports
-    size_t done_ = 0;
+    size_t done_ = 0, groupsDone_ = 0;
     HuntResult result_;
 };
 

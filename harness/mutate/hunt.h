@@ -62,7 +62,10 @@ struct HuntOptions {
     std::function<bool(const Mutation&)> isEquivalent; // empty: none is
     // What an earlier hunt tells of a mutant that it caught; empty or nullptr: it is asked about.
     std::function<const MutantResult*(const Mutation&)> findCaught;
-    std::function<void(const MutantResult&, size_t done, size_t all)> report; // one at a time, from any thread
+    // One at a time, from any thread: each mutant; then each set of programs whose cases have been looked at for idle
+    // ones.
+    std::function<void(const MutantResult&, size_t done, size_t all)> report;
+    std::function<void(size_t done, size_t all)> reportIdle;
 };
 
 struct HuntResult {
