@@ -119,6 +119,24 @@ std::string formatMarkdownTable(const std::vector<HuntCounts>& rows, const std::
     return text;
 }
 
+// A line a member, and a line an element where that is a list: thousands of mutants can be read and compared.
+std::string dumpByLine(const Json& json)
+{
+    const auto dump = [](const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); };
+    std::vector<std::string> members;
+    for (const auto& [name, value] : json.items()) {
+        std::string text = dump(value);
+        if (value.is_array() && !value.empty()) {
+            std::vector<std::string> elements;
+            for (const Json& element : value)
+                elements.push_back("  " + dump(element));
+            text = fmt::format("[\n{}\n ]", fmt::join(elements, ",\n"));
+        }
+        members.push_back(fmt::format(" {}: {}", dump(Json(name)), text));
+    }
+    return fmt::format("{{\n{}\n}}\n", fmt::join(members, ",\n"));
+}
+
 } // namespace
 
 std::optional<double> HuntCounts::score() const
@@ -129,8 +147,10 @@ std::optional<double> HuntCounts::score() const
 
 std::string formatScore(const HuntCounts& counts)
 {
-    const std::optional<double> score = counts.score();
-    return score ? fmt::format("{:.1f} %", *score * 100) : "-";
+    const size_t all = counts.caught + counts.survived;
+    if (all == 0) return "-";
+    const size_t tenths = 1000 * counts.caught / all;
+    return fmt::format("{}.{} %", tenths / 10, tenths % 10);
 }
 
 HuntCounts countAll(const HuntResult& hunt)
@@ -262,7 +282,7 @@ std::string formatHuntJson(const HuntResult& hunt, const HuntChoice& choice)
     for (const MutantResult& mutant : hunt.mutants)
         mutants.push_back(toJson(mutant));
     json["mutants"] = std::move(mutants);
-    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return dumpByLine(json);
 }
 
 } // namespace crossray

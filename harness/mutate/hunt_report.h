@@ -21,7 +21,7 @@ struct HuntCounts {
 HuntCounts countAll(const HuntResult& hunt);
 std::vector<HuntCounts> countByFile(const HuntResult& hunt);
 std::vector<HuntCounts> countByOperation(const HuntResult& hunt);
-// "97.3 %" or "-".
+// "97.3 %" or "-". Rounded down, so that 100.0 % is all of them.
 std::string formatScore(const HuntCounts& counts);
 
 // How the mutants were chosen, for the record.

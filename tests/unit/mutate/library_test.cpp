@@ -105,6 +105,10 @@ TEST(HuntReport, countsWhatIsCaughtAmongWhatCouldBe)
     EXPECT_EQ(counts.unreached, 1u);
     EXPECT_DOUBLE_EQ(counts.score().value(), 0.5);
     EXPECT_EQ(formatScore(counts), "50.0 %");
+    HuntCounts most;
+    most.caught = 2999;
+    most.survived = 1;
+    EXPECT_EQ(formatScore(most), "99.9 %"); // 100 % is all of them
     EXPECT_EQ(formatScore({}), "-");
     EXPECT_EQ(countByOperation(hunt).size(), 2u);
 }
