@@ -144,7 +144,7 @@ if(TARGET crossray)
                    --shader crossray/core --shader crossray/refract --shader crossray/hierarchy --shader crossray/debug --shader crossray/shared
                    --shader crossray/probe --shader crossray/project/proxy.glsl --shader crossray/project/screen_ray.glsl
                    --shader crossray/project/linear.glsl --shader crossray/project/depth_patch.glsl --shader crossray/project/hiz.glsl
-                   --shader crossray/project/patch_tracer.glsl --shader crossray/project/surface_pyramid.glsl --sample 40 --seed 5 --ask 3 -j 2 --min-score 80)
+                   --shader crossray/project/patch_tracer.glsl --shader crossray/project/surface_pyramid.glsl --sample 40 --seed 5 --ask 3 -j 2 --min-score 97)
   set_tests_properties(mutation.theTablesCatchASampleOfPlantedBugs PROPERTIES TIMEOUT 600)
 endif()
 
