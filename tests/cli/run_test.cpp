@@ -372,7 +372,8 @@ TEST_F(RunTest, aBrokenShaderIsNotExcusedWhereItCouldHaveDecided)
     writeFile(file, source);
     const Outcome outcome = run(command);
     EXPECT_EQ(outcome.exitCode, 1) << outcome.out;
-    for (const auto& backend : readRun("out/broken")["cases"][0]["backends"]) {
+    const nlohmann::json broken = readRun("out/broken");
+    for (const auto& backend : broken["cases"][0]["backends"]) {
         const auto& reason = backend["expectations"][0]["comparison"];
         if (backend["backend"] != "lavapipe") continue;
         EXPECT_EQ(reason["undecidable"], 12);

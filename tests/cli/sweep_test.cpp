@@ -55,7 +55,8 @@ TEST_F(SweepTest, otherKeysAreSetForAllValues)
     const Outcome outcome = run("sweep pane material.thickness 0..10:3 --set material.ior=0.5 --set 'scene.size=[2, "
                                 "2]' --backend cpu64 --json");
     EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
-    for (const auto& row : nlohmann::json::parse(outcome.out)["values"])
+    const nlohmann::json sweep = nlohmann::json::parse(outcome.out);
+    for (const auto& row : sweep["values"])
         EXPECT_EQ(row["backends"][0]["classes"]["no raycast: total internal reflection"], 1);
 }
 

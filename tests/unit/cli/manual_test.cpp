@@ -1,3 +1,4 @@
+#include "harness/base/temporary_folder.h"
 #include "harness/cli/command_line.h"
 
 #include <gtest/gtest.h>
@@ -33,18 +34,10 @@ bool isInstalled(const std::string& program)
 
 class ManualTest : public testing::Test {
   protected:
-    void SetUp() override
-    {
-        folder_ = std::filesystem::temp_directory_path() /
-                  ("crossray_manual_" + std::to_string(reinterpret_cast<uintptr_t>(this)));
-        std::filesystem::create_directories(folder_);
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-
     std::string write(const std::string& name, const std::string& text) const
     {
-        std::ofstream(folder_ / name) << text;
-        return (folder_ / name).string();
+        std::ofstream(folder_.path() / name) << text;
+        return (folder_.path() / name).string();
     }
 
     // What bash offers after the words, the last of which is being typed.
@@ -54,7 +47,7 @@ class ManualTest : public testing::Test {
         // The program itself is stood in for: its cases are known then.
         const std::string offered =
             printed("bash -c 'crossray() { printf \"hiz/plane  A claim.\\nproxy/box  A claim.\\n\"; }; cd " +
-                    folder_.string() + "; . " + script + "; COMP_WORDS=(" + words +
+                    folder_.path().string() + "; . " + script + "; COMP_WORDS=(" + words +
                     "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _crossray; printf \"%s\\n\" \"${COMPREPLY[@]}\"' 2>&1");
         std::vector<std::string> lines;
         for (size_t begin = 0; begin < offered.size();) {
@@ -65,7 +58,7 @@ class ManualTest : public testing::Test {
         return lines;
     }
 
-    std::filesystem::path folder_;
+    TemporaryFolder folder_{"manual-test"};
 };
 
 using Words = std::vector<std::string>;
@@ -135,7 +128,7 @@ TEST_F(ManualTest, fishOffersVerbsAndWords)
     if (!isInstalled("fish")) GTEST_SKIP() << "fish is not installed";
     const std::string script = write("c.fish", formatCompletion(describeCommandLine(), Shell::kFish));
     const auto offers = [&](const std::string& line) {
-        return printed("HOME=" + folder_.string() + " fish -N -c 'function crossray; end; source " + script +
+        return printed("HOME=" + folder_.path().string() + " fish -N -c 'function crossray; end; source " + script +
                        "; complete -C \"" + line + "\"' 2>&1");
     };
     EXPECT_EQ(offers("crossray swe"), "sweep\tRun a parameter of a case through the edge where its method fails\n");

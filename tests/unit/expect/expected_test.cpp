@@ -1,5 +1,6 @@
 #include "tests/unit/expect/cases.h"
 
+#include "harness/base/temporary_folder.h"
 #include "harness/scene/exr.h"
 
 #include <filesystem>
@@ -356,8 +357,8 @@ TEST(Expected, aBoundIsTheSameEverywhere)
 TEST(Expected, aGoldenIsReadByItsOutputsName)
 {
     const CaseData data(glassSphere());
-    const std::filesystem::path file = std::filesystem::temp_directory_path() / "crossray_golden_test.exr";
-    std::filesystem::remove(file);
+    const TemporaryFolder folder("golden-test");
+    const std::filesystem::path file = folder.path() / "golden.exr";
     const Expectation depth = expectation("HitDepth", GoldenSource{file});
     EXPECT_FALSE(makeExpected(data, depth)) << "a missing golden is no error";
     const std::vector<Plane> planes{Plane("HitDepth", 24, 16, 1, 2.5), Plane("HitWeight", 8, 8, 1, 1.0)};
@@ -369,5 +370,4 @@ TEST(Expected, aGoldenIsReadByItsOutputsName)
                   makeExpected(data, expectation("Color", GoldenSource{file}));
               }).find("it has HitDepth, HitWeight"),
               std::string::npos);
-    std::filesystem::remove(file);
 }
