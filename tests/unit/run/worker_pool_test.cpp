@@ -162,6 +162,15 @@ TEST(WorkerPool, errorsOfAJobAreAnswers)
     EXPECT_EQ(lost.outcome, JobOutcome::kEnvironmentError);
     EXPECT_EQ(lost.text, "the device is lost");
     EXPECT_NE(processOf(pool), process);
+    EXPECT_EQ(pool.run("test", 0, jobOf("fine"), 10s).outcome, JobOutcome::kDone);
+}
+
+TEST(WorkerPool, aLackOfMemoryIsAnAnswer)
+{
+#ifdef __SANITIZE_ADDRESS__
+    GTEST_SKIP() << "the address sanitizer ends a process whose memory is used up";
+#endif
+    WorkerPool pool(testOptions());
     const JobReport starved = pool.run("test", 0, jobOf("no memory"), 10s);
     EXPECT_EQ(starved.outcome, JobOutcome::kEnvironmentError);
     EXPECT_EQ(starved.text, "the worker is out of memory");
