@@ -178,21 +178,22 @@ TEST(Fuzz, EveryKeyIsDrawn)
             }
         }
     };
-    for (uint64_t seed = 0; seed < 600; ++seed) {
-        rc::Random values(seed);
-        Node root = drawCase(rc::Random(seed), values.split());
-        if (readOrRepair(root, rc::Random(seed), values, folder.path() / "case.toml")) count(root, "");
-    }
+    std::set<std::string> missing;
     for (const CaseKey& key : caseSchema()) {
         const std::string path = key.table.empty() ? key.key : key.table + "." + key.key;
         const bool isText = key.type == "string" || key.type == "list of strings" || key.type == "date";
         const bool isRun = key.table.starts_with("expect") || key.table.starts_with("known_failure") ||
                            key.table.starts_with("gbuffer") || key.table == "expand" || key.table == "rotation" ||
                            key.table.empty();
-        if (!isText && !isRun) {
-            EXPECT_GT(drawn[path], 0) << path;
-        }
+        if (!isText && !isRun) missing.insert(path);
     }
+    for (uint64_t seed = 0; seed < 600 && !missing.empty(); ++seed) {
+        rc::Random values(seed);
+        Node root = drawCase(rc::Random(seed), values.split());
+        if (readOrRepair(root, rc::Random(seed), values, folder.path() / "case.toml")) count(root, "");
+        std::erase_if(missing, [&](const std::string& path) { return drawn.contains(path); });
+    }
+    EXPECT_TRUE(missing.empty()) << fmt::format("{}", fmt::join(missing, ", "));
 }
 
 // A fault in a copy of the shaders: transmittances above 1 amplify. It is found, cut down, and written as a case that
@@ -220,7 +221,11 @@ TEST(Fuzz, AFaultIsFoundCutDownAndWrittenAsACase)
     Node smallest;
     for (uint64_t seed = 0; seed < 800 && !finding; ++seed) {
         const rc::Shrinkable<Node> drawn = drawFuzzCase(fuzzer, seed, 0);
-        finding = fuzzer.check(drawn.value(), 0, drivers).finding;
+        const Node root = drawn.value();
+        const Node* const material = root.find("material");
+        // The others have no transmittance to be wrong, and each takes a compilation.
+        if (material == nullptr || material->find("transmittance_color") == nullptr) continue;
+        finding = fuzzer.check(root, 0, drivers).finding;
         if (finding) smallest = fuzzer.minimize(drawn, *finding, 0, drivers, kMostCuts);
     }
     ASSERT_TRUE(finding);
