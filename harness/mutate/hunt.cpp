@@ -249,13 +249,25 @@ class Hunt {
                 askCases(result, core);
             } catch (const ShaderError& error) {
                 result.end = MutantEnd::kNoCompile;
-                result.reason = std::string(error.what()).substr(0, std::string_view(error.what()).find('\n'));
+                result.reason = withoutFolder(error.what());
             }
         }
         if (!result.isOld) result.seconds = watch.lap() / 1000;
         const std::lock_guard lock(mutex_);
         ++done_;
         if (options_.report) options_.report(result, done_, mutations_.size());
+    }
+
+    // The first line of a compiler's complaint, with files named from the folder that the shaders lie in: a table that
+    // is published says nothing of the machine that made it.
+    std::string withoutFolder(std::string_view complaint) const
+    {
+        std::string line(complaint.substr(0, complaint.find('\n')));
+        const std::string folder =
+            std::filesystem::absolute(library_.root()).lexically_normal().parent_path().string() + "/";
+        for (size_t at = 0; (at = line.find(folder, at)) != std::string::npos;)
+            line.erase(at, folder.size());
+        return line;
     }
 
     void takeOver(MutantResult& result, const MutantResult& earlier)
