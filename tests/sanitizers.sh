@@ -45,8 +45,7 @@ run_tests() { # ARGUMENTS OF ctest
 code=0
 run_tests -E "$left_out|^stability\."
 run_tests -R '^stability\.'
-# How each test ended the last time that it ran.
-# (The two runs number them differently.)
+# How each test ended the last time that it ran. By number and name, since the two runs number them differently.
 ends=$(sed -nE 's/^ *([0-9]+\/[0-9]+)? +Test +#([0-9]+):/\2/p' "$log" | awk '{ last[$1 " " $2] = $0 } END { for (test in last) print last[test] }')
 counted() { grep -cE "$1" <<<"$ends"; }
 passed=$(counted ' Passed +[0-9.]+ sec') skipped=$(counted '\*\*\*(Skipped|Not Run)')

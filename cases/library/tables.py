@@ -194,6 +194,9 @@ def unit(v, fallback=(0.0, 0.0, 0.0)):
     return mul(scaled, 1 / length(scaled))
 
 
+def isTowards(v): return length(unit(v)) > 0.5
+
+
 def clamp01(x):
     return min(x, 1.0) if x > 0 else 0.0
 

@@ -4,6 +4,15 @@ from tables import Function, add, copyOf, dot, flat, mul, sub, unit, write
 from tables_core import fromView, kEye, kSize, kSlope, kViews
 from tables_project import screenRay
 
+kRecorder = """float recorded = 0.0; // a sum over the steps that knows their order
+float recordedKinds = 0.0;
+void recordLinearStep(LinearStep step)
+{
+    float share = 1.0 / float(step.iteration + 2);
+    recorded += share * (step.positionSS.x + 2.0 * step.positionSS.y + 3.0 * step.rayLinearDepth + 5.0 * min(step.surfaceLinearDepth, 20.0));
+    recordedKinds += float(step.intersectionKind) * float(step.iteration + 1);
+}
+"""
 kSurfaces = """
 int tableKind = 0;
 
@@ -22,15 +31,7 @@ float fetchLinearDepth(ivec2 pixel)
     return depth;
 }
 
-float recorded = 0.0; // a sum over the steps that knows their order
-float recordedKinds = 0.0;
-void recordLinearStep(LinearStep step)
-{
-    float share = 1.0 / float(step.iteration + 2);
-    recorded += share * (step.positionSS.x + 2.0 * step.positionSS.y + 3.0 * step.rayLinearDepth + 5.0 * min(step.surfaceLinearDepth, 20.0));
-    recordedKinds += float(step.intersectionKind) * float(step.iteration + 1);
-}
-"""
+""" + kRecorder
 
 
 def depthAt(kind, i, j):

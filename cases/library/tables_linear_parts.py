@@ -1,7 +1,7 @@
 """The table of the parts of project/linear.glsl, and of its march where two numbers are one: exactly on a surface, exactly as thick; see tables.py."""
 from tables import copyOf, flat, Function, kInf, kNaN, single, unit, write
 from tables_core import kSize, kViews
-from tables_linear import marchRay, Undecided
+from tables_linear import kRecorder, marchRay, Undecided
 from tables_project import screenRayInView
 
 kSurfaces = """
@@ -24,15 +24,7 @@ float fetchLinearDepth(ivec2 pixel)
     return tableKind >= 2 ? linearDepthFromAffine(tableOrthographic, affine) : isStray ? 0.015625 : depth;
 }
 
-float recorded = 0.0; // a sum over the steps that knows their order
-float recordedKinds = 0.0;
-void recordLinearStep(LinearStep step)
-{
-    float share = 1.0 / float(step.iteration + 2);
-    recorded += share * (step.positionSS.x + 2.0 * step.positionSS.y + 3.0 * step.rayLinearDepth + 5.0 * min(step.surfaceLinearDepth, 20.0));
-    recordedKinds += float(step.intersectionKind) * float(step.iteration + 1);
-}
-
+""" + kRecorder + """
 // A pixel a metre, and world space is view space.
 View plainView() { return View(mat4(1.0), mat4(1.0), mat4(1.0), vec2(64.0, 48.0), vec2(32.0, 24.0), 0.0, 1.0, 0.5, 64.0, true, true); }
 """

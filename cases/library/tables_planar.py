@@ -1,10 +1,7 @@
 """Tables of probe/planar and probe/urp; see tables.py."""
 import math
-from tables import Function, add, clamp01, dot, flat, isNumber, kInf, kNaN, length, mul, single, sub, unit, write
+from tables import Function, add, clamp01, dot, flat, isNumber, isTowards, kInf, kNaN, length, mul, single, sub, unit, write
 from tables_core import fromView, isCleared, kAxes, kEye, kFar, kNear, kSlope, kViews, safeDivide, toView, toViewDir
-
-
-def isTowards(v): return length(unit(v)) > 0.5
 
 
 # -------------------------------------------------------------------------------------------------- probe/planar.glsl

@@ -1,9 +1,6 @@
 """The definition of project/screen_ray, and tables of the pure parts of the pyramids and probe/cubemap; see tables.py."""
-from tables import Function, add, clamp01, isNumber, kInf, kLimit, kNaN, length, mul, sub, unit, write
+from tables import Function, add, clamp01, isNumber, isTowards, kInf, kLimit, kNaN, length, mul, sub, unit, write
 from tables_core import awayFromZero, kDegenerateRay, kFar, kNear, kSize, kSlope, kViews, linearOf, toView, toViewDir
-
-
-def isTowards(v): return length(unit(v)) > 0.5
 
 
 # ------------------------------------------------------------------------------------------- project/screen_ray.glsl

@@ -65,29 +65,32 @@ def exitOf(model, p, n, v, index, thickness):
     return [add(origin, mul(d, path)), mul(v, -1), path, kNone]
 
 
-def fresnelExact(cosine, index):
+def fresnelTerms(cosine, index):
+    """The index and the cosine within their bounds, and the index times the inner cosine; None where all is reflected."""
     if not 0 < index < 1e30:
-        return 1.0
+        return None
     index = min(max(index, 0.001), 1000.0)
     c = min(cosine, 1.0) if cosine > 1e-4 else 1e-4
     q = index * index - 1 + c * c
-    if q <= 0:
+    return (index, c, math.sqrt(q)) if q > 0 else None
+
+
+def fresnelExact(cosine, index):
+    terms = fresnelTerms(cosine, index)
+    if terms is None:
         return 1.0
-    k = math.sqrt(q)  # index times the inner cosine
+    index, c, k = terms
     rs = (c - k) / (c + k)
     rp = (index * index * c - k) / (index * index * c + k)
     return 0.5 * (rs * rs + rp * rp)
 
 
 def fresnelSchlick(cosine, index):
-    if not 0 < index < 1e30:
+    terms = fresnelTerms(cosine, index)
+    if terms is None:
         return 1.0
-    index = min(max(index, 0.001), 1000.0)
-    c = min(cosine, 1.0) if cosine > 1e-4 else 1e-4
-    q = index * index - 1 + c * c
-    if q <= 0:
-        return 1.0
-    side = math.sqrt(q) / index if index < 1 else c
+    index, c, k = terms
+    side = k / index if index < 1 else c
     base = ((index - 1) / (index + 1)) ** 2
     return base + (1 - base) * (1 - side) ** 5
 

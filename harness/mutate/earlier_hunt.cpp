@@ -1,24 +1,22 @@
 #include "harness/mutate/earlier_hunt.h"
 
 #include "harness/base/error.h"
+#include "harness/base/text.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
+#include <optional>
 
 namespace crossray {
 
 EarlierHunt::EarlierHunt(const std::filesystem::path& file)
 {
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    if (!stream) throw InputError({file.string()}, "cannot be read");
+    const std::optional<std::string> text = readText(file);
+    if (!text) throw InputError({file.string()}, "cannot be read");
     try {
-        const auto json = nlohmann::json::parse(text.str());
+        const auto json = nlohmann::json::parse(*text);
         if (json.at("schema") != "crossray-mutation/1")
             throw InputError({file.string()}, "is no mutation.json: its schema must be crossray-mutation/1");
         for (const auto& one : json.at("mutants")) {

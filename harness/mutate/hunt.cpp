@@ -66,6 +66,11 @@ class MutantPrograms {
                            [&](const std::string& function) { return reach.contains(function); });
     }
 
+    bool reachesAny(const std::vector<ProgramKey>& programs)
+    {
+        return std::any_of(programs.begin(), programs.end(), [&](const ProgramKey& one) { return reaches(one); });
+    }
+
     // Nothing when none of the programs differs from the library's own.
     const std::vector<std::vector<uint32_t>>* of(size_t group, const std::vector<ProgramKey>& programs)
     {
@@ -221,10 +226,8 @@ class Hunt {
     std::vector<size_t> findCandidates(MutantPrograms& mutant)
     {
         std::vector<bool> groups;
-        for (const auto& programs : groups_) {
-            groups.push_back(std::any_of(programs.begin(), programs.end(),
-                                         [&](const ProgramKey& program) { return mutant.reaches(program); }));
-        }
+        for (const auto& programs : groups_)
+            groups.push_back(mutant.reachesAny(programs));
         std::vector<size_t> candidates;
         for (size_t i = 0; i < cases_.size(); ++i) {
             if (groups[groupOf_[i]]) candidates.push_back(i);
@@ -393,9 +396,7 @@ class Hunt {
             const MutantResult& mutant = result_.mutants[(i * 7919 + group * 104729) % result_.mutants.size()];
             if (mutant.end != MutantEnd::kCaught || mutant.how == "timeout") continue;
             MutantPrograms programs = makePrograms(mutant.mutation);
-            const bool isReached = std::any_of(groups_[group].begin(), groups_[group].end(),
-                                               [&](const ProgramKey& one) { return programs.reaches(one); });
-            if (!isReached) continue;
+            if (!programs.reachesAny(groups_[group])) continue;
             const auto* code = programs.of(group, groups_[group]);
             if (code == nullptr) {
                 ++unchanged;
