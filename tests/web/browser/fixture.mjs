@@ -163,8 +163,8 @@ export function readExrPart(file, part) {
   };
 }
 
-/** A page of its own, and what its console said that it should not. */
-export async function openPage(target, { scheme = 'light', width = 1400, height = 900 } = {}) {
+/** A page of its own, and what its console said that it should not. `prepare(page)` is called before it opens its address. */
+export async function openPage(target, { scheme = 'light', width = 1400, height = 900, prepare = () => {} } = {}) {
   browser ??= await chromium.launch({ executablePath: process.env.CROSSRAY_CHROMIUM ?? '/usr/bin/chromium', args: ['--no-sandbox', '--disable-gpu'] });
   const context = await browser.newContext({ colorScheme: scheme, viewport: { width, height } });
   const page = await context.newPage();
@@ -173,6 +173,7 @@ export async function openPage(target, { scheme = 'light', width = 1400, height 
   page.on('console', (message) => ['error', 'warning'].includes(message.type()) && !message.text().includes('willReadFrequently') && complaints.push(message.text()));
   page.on('pageerror', (error) => complaints.push(String(error)));
   page.setDefaultTimeout(15000);
+  await prepare(page);
   await page.goto(target.includes('://') ? target : pathToFileURL(target.split('#')[0]).href + (target.includes('#') ? target.slice(target.indexOf('#')) : ''));
   return { page, complaints, close: () => context.close() };
 }

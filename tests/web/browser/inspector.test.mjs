@@ -18,9 +18,16 @@ before(() => {
 
 test('a click traces the ray and draws it where the record says', async () => {
   const { url } = await startInspector(folder);
-  const { page, complaints, close } = await opened(`${url}#case=floor/depth&a=lavapipe&o=HitDepth&b=lavapipe,cpu64&beside=none&worst=0`);
+  // Answers are late, as on a slow machine: the pixel is named at once, its steps come when they are there.
+  let release;
+  const released = new Promise((done) => (release = done));
+  const prepare = (fresh) => fresh.route('**/trace', async (route) => { await released; await route.continue(); });
+  const { page, complaints, close } = await opened(`${url}#case=floor/depth&a=lavapipe&o=HitDepth&b=lavapipe,cpu64&beside=none&worst=0`, { prepare });
   await clickPixel(page, 'actual', 24, 28, kWidth, kHeight);
-  await until(() => textOf(page, '#trace h2'), (title) => title.startsWith('Trace of pixel 24, 28'), 'the trace of the pixel');
+  const panel = () => textOf(page, '#trace');
+  await until(panel, (text) => text.startsWith('Trace of pixel 24, 28') && text.includes('being traced'), 'the pixel before its trace');
+  release();
+  await until(panel, (text) => text.startsWith('Trace of pixel 24, 28') && text.includes('Steps of the march'), 'the trace of the pixel');
   const said = crossray(folder, 'trace', 'floor/depth', '--pixel', '24,28', '--backend', 'lavapipe', '--json');
   const [record] = JSON.parse(said.out).backends;
   const rows = await page.locator('.steps tbody tr').evaluateAll((all) => all.map((row) => [...row.cells].map((cell) => cell.textContent)));
