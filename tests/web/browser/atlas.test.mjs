@@ -52,7 +52,7 @@ test('it has every row of the document, with the verdict of each case that the r
   // To the case that failed, and back.
   await page.locator('.c1 a', { hasText: 'the cap' }).click();
   await until(() => page.locator('.case-title h2').textContent(), (name) => name === 'stability/29_the_cap_is_no_hit', 'the case');
-  assert.ok(!await page.locator('#atlas').isVisible());
+  await until(() => page.locator('#atlas').isVisible(), (visible) => !visible, 'in the place of the atlas');
   await page.goBack();
   await until(() => page.locator('#atlas').isVisible(), Boolean, 'the way back');
 
