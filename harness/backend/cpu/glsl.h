@@ -14,10 +14,10 @@
 // for *32.cpp of this folder). One unit holds one precision.
 //
 // What it offers: GLM's scalars, vec2..4, ivec2..4, uvec2..4, bvec2..4, mat3, mat4, swizzles that are read (v.xyz), and
-// GLSL's operators and built-in functions as non-template overloads.
+// GLSL's operators and built-in functions as overloads whose arguments' types are given, not deduced.
 //
-// What it does not offer: arrays' constructors, not(), `f` suffixes (a float in a double unit), and in double the bit casts
-// floatBitsToInt and its kin. The library does not write through swizzles.
+// What it does not offer: arrays' constructors, not(), `f` suffixes (a float in a double unit), and in double the bit
+// casts floatBitsToInt and its kin. The library does not write through swizzles.
 #pragma once
 
 #include "harness/backend/cpu/glsl_glm.h"
@@ -44,5 +44,11 @@ namespace crossray::cpu32 {
 #endif
 namespace {
 
+// A template of nothing, whose arguments still convert: its body, and what GLM's templates make of it, is compiled
+// where it is called. A unit calls few of the 405.
+// clang-format off
+#define CROSSRAY_LAZY template <int = 0> inline
+// clang-format on
 #include "harness/backend/cpu/glsl_types.inl"
 #include "harness/backend/cpu/glsl_functions.inl"
+#undef CROSSRAY_LAZY

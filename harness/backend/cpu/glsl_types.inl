@@ -18,11 +18,11 @@ using bvec4 = glm::vec<4, bool>;
 using mat3 = glm::mat<3, 3, float>;
 using mat4 = glm::mat<4, 4, float>;
 
-// GLM's operators are templates; these are not, so that a swizzle converts to its vector.
+// GLM's operators deduce their arguments' type; these do not, so that a swizzle converts to its vector.
 #define CROSSRAY_OPERATOR(V, S, op)                                                                                    \
-    inline V operator op(const V& a, const V& b) { return glm::operator op(a, b); }                                    \
-    inline V operator op(const V& a, S b) { return glm::operator op(a, b); }                                           \
-    inline V operator op(S a, const V& b) { return glm::operator op(a, b); }
+    CROSSRAY_LAZY V operator op(const V& a, const V& b) { return glm::operator op(a, b); }                                    \
+    CROSSRAY_LAZY V operator op(const V& a, S b) { return glm::operator op(a, b); }                                           \
+    CROSSRAY_LAZY V operator op(S a, const V& b) { return glm::operator op(a, b); }
 #define CROSSRAY_ARITHMETIC(V, S)                                                                                      \
     CROSSRAY_OPERATOR(V, S, +)                                                                                         \
     CROSSRAY_OPERATOR(V, S, -)                                                                                         \
@@ -41,9 +41,9 @@ CROSSRAY_ARITHMETIC(uvec4, uint)
 #undef CROSSRAY_OPERATOR
 
 #define CROSSRAY_VECTOR(V)                                                                                             \
-    inline V operator-(const V& a) { return glm::operator-(a); }                                                       \
-    inline bool operator==(const V& a, const V& b) { return glm::operator==(a, b); }                                   \
-    inline bool operator!=(const V& a, const V& b) { return glm::operator!=(a, b); }
+    CROSSRAY_LAZY V operator-(const V& a) { return glm::operator-(a); }                                                       \
+    CROSSRAY_LAZY bool operator==(const V& a, const V& b) { return glm::operator==(a, b); }                                   \
+    CROSSRAY_LAZY bool operator!=(const V& a, const V& b) { return glm::operator!=(a, b); }
 CROSSRAY_VECTOR(vec2)
 CROSSRAY_VECTOR(vec3)
 CROSSRAY_VECTOR(vec4)
@@ -52,7 +52,7 @@ CROSSRAY_VECTOR(ivec3)
 CROSSRAY_VECTOR(ivec4)
 #undef CROSSRAY_VECTOR
 
-inline vec3 operator*(const mat3& m, const vec3& v) { return glm::operator*(m, v); }
-inline vec3 operator*(const vec3& v, const mat3& m) { return glm::operator*(v, m); }
-inline vec4 operator*(const mat4& m, const vec4& v) { return glm::operator*(m, v); }
-inline vec4 operator*(const vec4& v, const mat4& m) { return glm::operator*(v, m); }
+CROSSRAY_LAZY vec3 operator*(const mat3& m, const vec3& v) { return glm::operator*(m, v); }
+CROSSRAY_LAZY vec3 operator*(const vec3& v, const mat3& m) { return glm::operator*(v, m); }
+CROSSRAY_LAZY vec4 operator*(const mat4& m, const vec4& v) { return glm::operator*(m, v); }
+CROSSRAY_LAZY vec4 operator*(const vec4& v, const mat4& m) { return glm::operator*(v, m); }
