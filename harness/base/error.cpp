@@ -2,7 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace crossray {
+
+namespace {
+
+std::string withoutControlCharacters(std::string text)
+{
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, ' ');
+    return text;
+}
+
+} // namespace
 
 std::string SourcePosition::format() const
 {
@@ -15,6 +28,11 @@ std::string SourcePosition::format() const
 Error::Error(ExitCode code, const SourcePosition& position, const std::string& text)
     : std::runtime_error(position.file.empty() ? text : position.format() + ": " + text), code_(code),
       position_(position)
+{
+}
+
+InputError::InputError(const SourcePosition& position, const std::string& text)
+    : Error(ExitCode::kUsage, position, withoutControlCharacters(text))
 {
 }
 

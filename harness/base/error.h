@@ -1,5 +1,5 @@
-// Errors that end in one clear line and an exit code. A logic error asserts; a broken input throws one of these; a likely
-// local failure (a file that may be missing, a hit that may not be) is a return value.
+// Errors that end in one clear line and an exit code. A logic error asserts; a broken input throws one of these; a
+// likely local failure (a file that may be missing, a hit that may not be) is a return value.
 #pragma once
 
 #include <stdexcept>
@@ -27,7 +27,8 @@ enum class ExitCode : int {
     kInterrupted = 130,
 };
 
-// Base of all errors thrown on purpose. what() is the whole line "file:line:column: text", without a line break at its end.
+// Base of all errors thrown on purpose. what() is the whole line "file:line:column: text", without a line break at its
+// end.
 class Error : public std::runtime_error {
   public:
     Error(ExitCode code, const SourcePosition& position, const std::string& text);
@@ -39,15 +40,16 @@ class Error : public std::runtime_error {
     SourcePosition position_;
 };
 
-// Bad input: a case file, a G-buffer, a command line. Exit 2.
+// Bad input: a case file, a G-buffer, a command line. Exit 2. One line: what it quotes of the input may have line
+// breaks and other control characters, which are blanks here.
 class InputError : public Error {
   public:
-    InputError(const SourcePosition& position, const std::string& text) : Error(ExitCode::kUsage, position, text) {}
+    InputError(const SourcePosition& position, const std::string& text);
     explicit InputError(const std::string& text) : InputError(SourcePosition{}, text) {}
 };
 
-// A shader that does not compile, link or validate. The text may have several lines, each "file:line:column: error: text" of
-// the source that the person wrote.
+// A shader that does not compile, link or validate. The text may have several lines, each "file:line:column: error:
+// text" of the source that the person wrote.
 class ShaderError : public Error {
   public:
     explicit ShaderError(const std::string& text) : Error(ExitCode::kUsage, SourcePosition{}, text) {}

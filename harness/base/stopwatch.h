@@ -5,6 +5,11 @@
 
 namespace crossray {
 
+inline double millisecondsSince(std::chrono::steady_clock::time_point start)
+{
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
 class Stopwatch {
   public:
     // Milliseconds since the last lap, or since the watch was made.

@@ -37,29 +37,20 @@ bool isTag(std::string_view tag)
     return std::all_of(tag.begin(), tag.end(), [](char c) { return isNameCharacter(c) || c == '-'; }) && !tag.empty();
 }
 
-// For a message of one line.
-std::string withoutLineBreaks(std::string text)
-{
-    std::replace_if(
-        text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
-    return text;
-}
-
 void buildTop(const TableReader& top, Case& testCase)
 {
     testCase.name = top.text("name");
     if (!isCaseName(testCase.name)) {
-        throw InputError(top.position("name"),
-                         fmt::format("\"name\" is \"{}\"; words of a-z, 0-9 and _, joined by /, are allowed",
-                                     withoutLineBreaks(testCase.name)));
+        throw InputError(
+            top.position("name"),
+            fmt::format("\"name\" is \"{}\"; words of a-z, 0-9 and _, joined by /, are allowed", testCase.name));
     }
     testCase.summary = top.text("summary");
     testCase.tags = top.texts("tags");
     for (const Node& tag : top.find("tags")->items) {
         if (!isTag(tag.text)) {
-            throw InputError(
-                tag.place.position(),
-                fmt::format("\"{}\" is no tag; a word of a-z, 0-9, _ and - is allowed", withoutLineBreaks(tag.text)));
+            throw InputError(tag.place.position(),
+                             fmt::format("\"{}\" is no tag; a word of a-z, 0-9, _ and - is allowed", tag.text));
         }
     }
     testCase.backends = top.texts("backends");

@@ -17,5 +17,6 @@ TEST(Error, isOneLineThatOpensWithThePosition)
     const InputError error({"case.toml", 2, 5}, "unknown key \"iro\"");
     EXPECT_STREQ(error.what(), "case.toml:2:5: unknown key \"iro\"");
     EXPECT_EQ(error.exitCode(), ExitCode::kUsage);
+    EXPECT_STREQ(InputError("no shape \"pl\r\n\te\x7f\"").what(), "no shape \"pl   e \"");
     EXPECT_EQ(EnvironmentError("no device").exitCode(), ExitCode::kEnvironment);
 }

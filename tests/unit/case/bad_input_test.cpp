@@ -334,3 +334,10 @@ TEST_F(BadInput, whatMayBeExcusedIsBounded)
         refusal(expecting("output = \"HitSuccess\"\ntruth = \"hit\"\nbudget = { recall = 0.5 }\nundecidable = 0.1\n")),
         "a.toml:9:15: \"undecidable\" beside a budget is not allowed; the budget judges by shares");
 }
+
+TEST_F(BadInput, whatIsQuotedBreaksNoLine)
+{
+    EXPECT_EQ(refusal(withScene("primitives = [{ shape = \"pl\\n\\u007fe\" }]\n")),
+              "a.toml:10:25: \"pl  e\" is no name for \"shape\"; did you mean \"plane\"? Allowed: plane, sphere, box, "
+              "lens, torus");
+}
