@@ -276,11 +276,6 @@ std::string refuseNoProjection(const Case& testCase, Output)
     return "the case projects nothing; a proxy or a march is needed";
 }
 
-bool always(const Case&)
-{
-    return true;
-}
-
 std::string refuseOtherThanLinear(const Case& testCase, Output)
 {
     if (testCase.projection.model == ProjectionModel::kLinear) return {};

@@ -54,11 +54,6 @@ std::string refuseTiers(const Case& testCase, Output output)
     return refuseOtherProbes(testCase, output);
 }
 
-bool always(const Case&)
-{
-    return true;
-}
-
 } // namespace
 
 std::vector<Quantity> planarQuantities()

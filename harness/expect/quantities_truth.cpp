@@ -38,11 +38,6 @@ PixelAnswer answerUnweighted(const QuantityInput& input, size_t pixel)
     return answer;
 }
 
-bool always(const Case&)
-{
-    return true;
-}
-
 std::string refuseReflection(const Case& testCase, Output)
 {
     if (testCase.effect == TraceEffect::kRefraction) return {};

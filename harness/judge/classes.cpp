@@ -4,29 +4,24 @@
 #include "harness/judge/tally.h"
 
 #include <cmath>
-#include <limits>
 
 namespace crossray {
 
-namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr int kNotAClass = 4;
-constexpr int kNan = 5;
-
-int classify(double value)
+int classOf(double value)
 {
-    if (std::isnan(value)) return kNan;
+    if (std::isnan(value)) return kNanClass;
     const bool isClass = value == 0.0 || value == 1.0 || value == 2.0 || value == 3.0;
     return isClass ? static_cast<int>(value) : kNotAClass;
 }
 
 std::string nameOfClass(int value)
 {
-    if (value == kNan) return "NaN";
+    if (value == kNanClass) return "NaN";
     if (value == kNotAClass) return "no class";
     return std::string(nameOf(static_cast<HitClass>(value)));
 }
+
+namespace {
 
 std::string nameOfClassDifference(int kind)
 {
@@ -57,14 +52,14 @@ Comparison compareHitClasses(const Plane& expected, const Plane& actual, const M
     ConfusionMatrix confusion;
     for (size_t pixel = 0; pixel < expected.pixelCount(); ++pixel) {
         if (!tally.isCompared(pixel)) continue;
-        const int e = classify(expected.values[pixel]);
-        const int a = classify(actual.values[pixel]);
+        const int e = classOf(expected.values[pixel]);
+        const int a = classOf(actual.values[pixel]);
         const bool classes = e < kNotAClass && a < kNotAClass;
         if (classes) ++confusion.counts[e][a];
         if (e == a && e != kNotAClass) {
             tally.pass(pixel, 0.0);
         } else {
-            tally.fail(pixel, classes ? 1.0 : kInfinity, a * 8 + e + 1, classes);
+            tally.fail(pixel, classes ? 1.0 : kNoDistance, a * 8 + e + 1, classes);
         }
     }
     Comparison comparison = tally.finish(tolerance, nameOfClassDifference);
@@ -87,7 +82,7 @@ Comparison compareCounts(const Plane& expected, const Plane& actual, const Mask&
             if (e == CountKind::kWhole && a == CountKind::kWhole) {
                 error = std::max(error, std::fabs(actual.values[value] - expected.values[value]));
             } else if (e != CountKind::kNotANumber || a != CountKind::kNotANumber) {
-                error = kInfinity;
+                error = kNoDistance;
                 kind = static_cast<int>(a) * 8 + static_cast<int>(e) + 1;
             }
         }

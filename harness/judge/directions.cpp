@@ -11,7 +11,7 @@ namespace {
 
 enum class VectorKind { kDirection, kZero, kNonUnit, kNan, kInfinity };
 
-VectorKind classify(const double* v)
+VectorKind kindOf(const double* v)
 {
     const double squared = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
     constexpr double kLow = (1.0 - kUnitLengthBound) * (1.0 - kUnitLengthBound);
@@ -29,7 +29,7 @@ constexpr int differenceKind(VectorKind expected, VectorKind actual)
     return static_cast<int>(actual) * 8 + static_cast<int>(expected) + 1;
 }
 
-std::string nameOfDifference(int kind)
+std::string nameOfVectorDifference(int kind)
 {
     constexpr const char* kNames[] = {"direction", "zero vector", "non-unit vector", "NaN", "Inf"};
     const int actual = (kind - 1) / 8;
@@ -73,8 +73,8 @@ Comparison compareDirections(const Plane& expected, const Plane& actual, const M
         if (!tally.isCompared(pixel)) continue;
         const double* e = &expected.values[pixel * 3];
         const double* a = &actual.values[pixel * 3];
-        const VectorKind expectedKind = classify(e);
-        const VectorKind actualKind = classify(a);
+        const VectorKind expectedKind = kindOf(e);
+        const VectorKind actualKind = kindOf(a);
         if (expectedKind == VectorKind::kDirection && actualKind == VectorKind::kDirection) {
             const double error = angleDegrees(e, a);
             if (error <= *tolerance.degrees) {
@@ -93,7 +93,7 @@ Comparison compareDirections(const Plane& expected, const Plane& actual, const M
                        actualKind == VectorKind::kDirection || actualKind == VectorKind::kZero);
         }
     }
-    return tally.finish(tolerance, nameOfDifference);
+    return tally.finish(tolerance, nameOfVectorDifference);
 }
 
 } // namespace crossray

@@ -9,13 +9,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace crossray {
 
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct HitCounts {
     uint64_t traced = 0, answerable = 0, claimed = 0, right = 0, wrong = 0, falseHits = 0, missed = 0;
@@ -58,16 +55,7 @@ constexpr int kRight = 0;
 constexpr int kWrongPlace = 1;
 constexpr int kNoPlace = 2;
 constexpr int kFirstClassKind = 3;
-constexpr int kNotAClass = 4;
-constexpr int kNan = 5;
-constexpr int kKinds = kFirstClassKind + 2 * (kNan + 1);
-
-int classify(double value)
-{
-    if (std::isnan(value)) return kNan;
-    const bool isClass = value == 0.0 || value == 1.0 || value == 2.0 || value == 3.0;
-    return isClass ? static_cast<int>(value) : kNotAClass;
-}
+constexpr int kKinds = kFirstClassKind + 2 * (kNanClass + 1);
 
 std::string nameOfKind(int kind)
 {
@@ -75,10 +63,7 @@ std::string nameOfKind(int kind)
     if (kind == kNoPlace) return "hit at no finite place";
     const int claim = (kind - kFirstClassKind) / 2;
     const bool answerable = (kind - kFirstClassKind) % 2 == 1;
-    const std::string name = claim == kNan         ? "NaN"
-                             : claim == kNotAClass ? "no class"
-                                                   : std::string(nameOf(static_cast<HitClass>(claim)));
-    return name + (answerable ? " for hit" : " for unanswerable");
+    return nameOfClass(claim) + (answerable ? " for hit" : " for unanswerable");
 }
 
 struct PixelPlace {
@@ -88,14 +73,14 @@ struct PixelPlace {
 PixelDifference classDifference(PixelPlace place, bool answerable, double value)
 {
     const HitClass expected = answerable ? HitClass::kHit : HitClass::kUnknown;
-    return {place.x, place.y, {static_cast<double>(expected)}, {value}, kInfinity};
+    return {place.x, place.y, {static_cast<double>(expected)}, {value}, kNoDistance};
 }
 
 // Counts one traced pixel and returns the kind of its difference.
 int countPixel(HitCounts& counts, const HitTruth& truth, double value, const double* position, double positionPx,
                PixelPlace place)
 {
-    const int claim = classify(value);
+    const int claim = classOf(value);
     const bool claimed = claim == static_cast<int>(HitClass::kHit);
     const int classKind = kFirstClassKind + 2 * claim + (truth.answerable ? 1 : 0);
     ++counts.traced;
@@ -117,7 +102,7 @@ int countPixel(HitCounts& counts, const HitTruth& truth, double value, const dou
         return kRight;
     }
     const double distance = std::hypot(position[0] - truth.hitX, position[1] - truth.hitY);
-    const double error = std::isfinite(distance) ? distance : kInfinity;
+    const double error = std::isfinite(distance) ? distance : kNoDistance;
     counts.distances.push_back(error);
     if (!counts.worstPlaced || error > counts.worstPlaced->error) {
         counts.worstPlaced =
@@ -210,7 +195,7 @@ Comparison judgeHits(const std::vector<HitTruth>& truth, const Plane& hitSuccess
         const double* position = hitPositionSS == nullptr ? nullptr : &hitPositionSS->values[pixel * 2];
         ++kinds[static_cast<size_t>(countPixel(counts, truth[pixel], value, position, budget.positionPx, place))];
         const HitClass expected = truth[pixel].answerable ? HitClass::kHit : HitClass::kUnknown;
-        const int claim = classify(value);
+        const int claim = classOf(value);
         if (claim < kNotAClass) ++confusion.counts[static_cast<int>(expected)][claim];
     }
     for (int kind = kWrongPlace; kind < kKinds; ++kind) {

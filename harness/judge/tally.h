@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +16,15 @@ namespace crossray {
 // Kinds of difference are small numbers while pixels are counted, and get their names once a plane.
 inline constexpr int kBeyondTolerance = 0;
 inline constexpr int kDifferenceKinds = 64;
+
+// The error where there is no distance: a NaN, another class, an infinity for a number.
+inline constexpr double kNoDistance = std::numeric_limits<double>::infinity();
+
+// A class as a plane's number has it: HitClass, or one of these.
+inline constexpr int kNotAClass = 4;
+inline constexpr int kNanClass = 5;
+int classOf(double value);
+std::string nameOfClass(int value);
 
 // Throws InputError when the planes, the mask or the tolerance cannot be compared. `known` says which bounds the type
 // knows.

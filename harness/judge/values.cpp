@@ -5,17 +5,14 @@
 #include "harness/judge/tally.h"
 
 #include <cmath>
-#include <limits>
 
 namespace crossray {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 enum class NumberKind { kFinite, kNan, kPlusInfinity, kMinusInfinity, kZero };
 
-NumberKind classify(double value)
+NumberKind kindOf(double value)
 {
     if (std::isfinite(value)) return NumberKind::kFinite;
     if (std::isnan(value)) return NumberKind::kNan;
@@ -27,7 +24,7 @@ constexpr int differenceKind(NumberKind expected, NumberKind actual)
     return static_cast<int>(actual) * 8 + static_cast<int>(expected) + 1;
 }
 
-std::string nameOfDifference(int kind)
+std::string nameOfNumberDifference(int kind)
 {
     constexpr const char* kNames[] = {"finite", "NaN", "Inf", "-Inf", "zero"};
     return std::string(kNames[(kind - 1) / 8]) + " for " + kNames[(kind - 1) % 8];
@@ -45,7 +42,7 @@ double relativeError(double expected, double actual, double difference)
     if (difference == 0.0) return 0.0;
     // The difference of two huge values can overflow where its ratio does not.
     if (std::isinf(difference)) return std::fabs(actual / expected - 1.0);
-    return expected == 0.0 ? kInfinity : difference / std::fabs(expected);
+    return expected == 0.0 ? kNoDistance : difference / std::fabs(expected);
 }
 
 ChannelDifference measureFinite(double expected, double actual, const Tolerance& tolerance, Measure measure)
@@ -94,10 +91,10 @@ Comparison compareNumbers(std::string_view what, int channels, bool zeroMeansNon
                 }
                 continue;
             }
-            const NumberKind expectedKind = classify(e);
-            const NumberKind actualKind = classify(a);
+            const NumberKind expectedKind = kindOf(e);
+            const NumberKind actualKind = kindOf(a);
             if (expectedKind == actualKind) continue;
-            error = kInfinity;
+            error = kNoDistance;
             failed = true;
             kind = differenceKind(expectedKind, actualKind);
             break;
@@ -108,7 +105,7 @@ Comparison compareNumbers(std::string_view what, int channels, bool zeroMeansNon
             tally.pass(pixel, error);
         }
     }
-    return tally.finish(tolerance, nameOfDifference);
+    return tally.finish(tolerance, nameOfNumberDifference);
 }
 
 } // namespace
@@ -143,8 +140,8 @@ Comparison compareWithBound(const Plane& bound, const Plane& actual, const Mask&
             const double a = isMagnitude ? std::fabs(actual.values[value]) : actual.values[value];
             const bool isNumber = std::isfinite(a);
             if (isNumber && a <= b) continue;
-            error = isNumber ? std::max(error, a - b) : kInfinity;
-            if (!isNumber) kind = differenceKind(NumberKind::kFinite, classify(actual.values[value]));
+            error = isNumber ? std::max(error, a - b) : kNoDistance;
+            if (!isNumber) kind = differenceKind(NumberKind::kFinite, kindOf(actual.values[value]));
         }
         if (error > 0.0) {
             tally.fail(pixel, error, kind);
@@ -152,7 +149,7 @@ Comparison compareWithBound(const Plane& bound, const Plane& actual, const Mask&
             tally.pass(pixel, 0.0);
         }
     }
-    return tally.finish({}, nameOfDifference);
+    return tally.finish({}, nameOfNumberDifference);
 }
 
 } // namespace crossray

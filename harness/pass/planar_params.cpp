@@ -14,8 +14,6 @@ namespace crossray {
 
 namespace {
 
-constexpr int kLargestAtlas = 16384; // texels a side, that every device has
-
 // The planar probes in the order in which they are asked.
 std::vector<const Probe*> findPlanarProbes(const Case& testCase)
 {

@@ -12,8 +12,6 @@ namespace crossray {
 
 namespace {
 
-constexpr int kLargestAtlas = 16384; // texels a side, that every device has
-
 // Rows that a cubemap takes in the atlas: 2 size - 1, for sizes that are powers of two.
 int rowsOf(const Cubemap& cubemap)
 {

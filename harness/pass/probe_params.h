@@ -9,6 +9,9 @@
 
 namespace crossray {
 
+// Texels a side of an image that holds all captures: what every device has.
+inline constexpr int kLargestAtlas = 16384;
+
 // True where the case's passes read probes or the sky.
 bool usesProbes(const Case& testCase);
 

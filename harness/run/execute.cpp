@@ -1,5 +1,7 @@
 #include "harness/run/execute.h"
 
+#include "harness/base/stopwatch.h"
+
 #include "harness/run/case_flight.h"
 #include "harness/run/golden.h"
 #include "harness/run/schedule.h"
@@ -37,11 +39,6 @@ bool usesDoubles(const std::string& backend)
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double millisecondsSince(Clock::time_point start)
-{
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 // An estimate of what a case holds while in flight, for the schedule's bound: its G-buffer, two jobs, the expected
 // planes, and those of the backends that are not judged yet, are held for others or keep a failure company.

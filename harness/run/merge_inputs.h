@@ -11,9 +11,6 @@
 
 namespace crossray {
 
-// After so many cases the pages of the files that were read are given back.
-inline constexpr size_t kCasesBetweenReleases = 4096;
-
 struct ShardCase {
     std::string name;
     std::string_view text; // of the shard's run.json

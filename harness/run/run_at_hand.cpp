@@ -10,7 +10,6 @@ namespace crossray {
 
 RunAtHand readRunAtHand(const std::filesystem::path& path, size_t atMost)
 {
-    constexpr uint64_t kCasesBetweenReleases = 4096;
     const RunFile file(path);
     RunAtHand result{file.head(), file.cases().size()};
     RunCounts counts;

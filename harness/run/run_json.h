@@ -36,6 +36,9 @@ CaseResult parseCaseJson(std::string_view text, const std::string& name);
 RunResult readRun(const std::filesystem::path& path);
 std::filesystem::path findRunJson(const std::filesystem::path& path);
 
+// After so many cases what was read of a file is given back.
+inline constexpr size_t kCasesBetweenReleases = 4096;
+
 // A run.json of any size: its head, and its cases one at a time.
 class RunFile {
   public:

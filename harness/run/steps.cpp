@@ -1,5 +1,7 @@
 #include "harness/run/steps.h"
 
+#include "harness/base/stopwatch.h"
+
 #include "harness/run/worker_explain.h"
 
 #include <csignal>
@@ -11,11 +13,6 @@ namespace crossray {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double millisecondsSince(Clock::time_point start)
-{
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 PreparedCase prepareCase(const Case& testCase, bool needsFloat, bool needsDouble, ShaderCompiler& compiler,
                          const std::filesystem::path& shaderRoot)

@@ -1,6 +1,7 @@
 #include "harness/run/worker_pool.h"
 
 #include "harness/base/error.h"
+#include "harness/base/stopwatch.h"
 #include "harness/run/job_codec.h"
 #include "harness/run/worker_backends.h"
 #include "harness/run/worker_process.h"
@@ -41,11 +42,6 @@ Clock::time_point deadlineAfter(std::chrono::duration<double> timeout)
 {
     const double seconds = std::min(timeout.count(), 1e8); // within the clock's range
     return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
-}
-
-double millisecondsSince(Clock::time_point start)
-{
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
 MemoryUse largerOf(const MemoryUse& a, const MemoryUse& b)

@@ -10,7 +10,7 @@ constexpr double kReach = 10.0; // metres: |x| and |z| of floor and walls
 constexpr double kHeight = 6.0;
 constexpr double kWallZ = -6.0;
 constexpr double kWallX = -7.0;
-constexpr uint64_t kCameraStream = 0x63616d6572610000ULL; // keeps the camera's numbers apart from the room's
+constexpr uint64_t kRoomCameraStream = 0x63616d6572610000ULL; // keeps the camera's numbers apart from the room's
 
 Primitive drawBox(RandomStream& random)
 {
@@ -93,7 +93,7 @@ Scene makeRandomRoom(uint64_t seed)
 Camera makeRandomRoomCamera(uint64_t seed, int width, int height)
 {
     const Scene scene = makeRandomRoom(seed);
-    RandomStream random(seed ^ kCameraStream);
+    RandomStream random(seed ^ kRoomCameraStream);
     const CameraRegion region{{-3.5, 0.4, 3.5}, {5.0, 4.5, 7.0}, {-1.5, 0.2, -2.5}, {1.5, 1.2, 0.5}};
     return drawCamera(random, scene, region, width, height);
 }

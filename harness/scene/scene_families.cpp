@@ -9,8 +9,8 @@ namespace crossray {
 
 namespace {
 
-constexpr uint64_t kCameraStream = 0x66616d696c790000ULL; // keeps the camera's numbers apart from the scene's
-constexpr int kVault = 0;                                 // of a curved hall: its first primitive
+constexpr uint64_t kFamilyCameraStream = 0x66616d696c790000ULL; // keeps the camera's numbers apart from the scene's
+constexpr int kVault = 0;                                       // of a curved hall: its first primitive
 
 const glm::dvec3 kX(1, 0, 0), kY(0, 1, 0), kZ(0, 0, 1);
 
@@ -229,7 +229,7 @@ Camera makeRandomSceneCamera(SceneFamily family, uint64_t seed, int width, int h
     if (family == SceneFamily::kRandomRoom) return makeRandomRoomCamera(seed, width, height);
     const Scene scene = makeRandomScene(family, seed);
     const int vault = family == SceneFamily::kCurvedHall ? kVault : -1;
-    RandomStream random(seed ^ kCameraStream);
+    RandomStream random(seed ^ kFamilyCameraStream);
     const CameraRegion region{{-3.5, 0.6, 3.0}, {3.5, 3.5, 6.5}, {-1.5, 0.2, -3.0}, {1.5, 1.2, 0.5}};
     return drawCamera(random, scene, region, width, height, vault);
 }

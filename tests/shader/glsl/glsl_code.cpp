@@ -1,5 +1,7 @@
 #include "tests/shader/glsl/glsl_code.h"
 
+#include "harness/base/text.h"
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -146,6 +148,11 @@ void walk(const std::vector<GlslToken>& tokens, const Visit& visit)
 }
 
 } // namespace
+
+std::string readSource(const std::filesystem::path& file)
+{
+    return readText(file).value_or("");
+}
 
 std::vector<GlslToken> lexGlsl(std::string_view text)
 {

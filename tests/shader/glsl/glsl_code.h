@@ -8,6 +8,10 @@
 
 namespace crossray {
 
+inline const std::filesystem::path kShaders = std::filesystem::path(CROSSRAY_SOURCE_DIR) / "shaders";
+// Empty where it cannot be read.
+std::string readSource(const std::filesystem::path& file);
+
 // Comments and preprocessor lines left out; the lines of the file are kept.
 struct GlslToken {
     std::string text;

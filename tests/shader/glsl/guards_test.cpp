@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
 #include <map>
 #include <regex>
 #include <set>
@@ -21,12 +20,6 @@ const fs::path kSource = CROSSRAY_SOURCE_DIR;
 // Mesa 22.3.6 ends every loop there, and says nothing.
 constexpr int kMesasLimit = 65535;
 
-std::string readText(const fs::path& file)
-{
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 template <class Find>
 std::vector<GlslPlace> findInFolder(const fs::path& folder, const Find& find)
 {
@@ -38,7 +31,7 @@ std::vector<GlslPlace> findInFolder(const fs::path& folder, const Find& find)
     std::sort(files.begin(), files.end());
     std::vector<GlslPlace> places;
     for (const fs::path& file : files) {
-        const auto found = find(lexGlsl(readText(file)), fs::relative(file, folder).generic_string());
+        const auto found = find(lexGlsl(readSource(file)), fs::relative(file, folder).generic_string());
         places.insert(places.end(), found.begin(), found.end());
     }
     return places;
@@ -51,7 +44,7 @@ std::set<std::string> listShaderTests()
     const std::regex test(R"((?:TEST|TEST_F|RC_GTEST_PROP)\(\s*(\w+),\s*(\w+))");
     for (const auto& entry : fs::directory_iterator(kSource / "tests/shader")) {
         if (entry.path().extension() != ".cpp") continue;
-        const std::string text = readText(entry.path());
+        const std::string text = readSource(entry.path());
         for (std::sregex_iterator it(text.begin(), text.end(), test), end; it != end; ++it)
             names.insert(it->str(1) + "." + it->str(2));
     }
@@ -158,7 +151,7 @@ TEST(Guards, EachLoopHasABoundOfItsOwn)
     compare(countPlaces(loops), countEntries(*guards.find("loop")));
     std::string all;
     for (const auto& entry : fs::recursive_directory_iterator(kSource / "shaders")) {
-        if (entry.path().extension() == ".glsl") all += readText(entry.path());
+        if (entry.path().extension() == ".glsl") all += readSource(entry.path());
     }
     for (const Node& entry : guards.find("loop")->items) {
         const std::string where = entry.place.position().format();

@@ -3,6 +3,7 @@
 #include "harness/base/temporary_folder.h"
 #include "harness/base/error.h"
 #include "harness/compile/compile.h"
+#include "tests/shader/glsl/glsl_code.h"
 
 #include <gtest/gtest.h>
 
@@ -17,8 +18,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const fs::path kShaders = fs::path(CROSSRAY_SOURCE_DIR) / "shaders";
-
 // Bodies for every hook of the tracers, on a texture; recordHizStep is left to the caller.
 constexpr const char* kTracerHooks = R"(
 layout(binding = 0) uniform sampler2D pyramid;
@@ -26,12 +25,6 @@ vec2 fetchDepthPyramid(ivec2 cell, int level) { return texelFetch(pyramid, cell,
 ivec2 depthPyramidSize(int level) { return textureSize(pyramid, level); }
 int depthPyramidLevelCount() { return textureQueryLevels(pyramid); }
 )";
-
-std::string readText(const fs::path& file)
-{
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 std::vector<fs::path> libraryFiles()
 {
@@ -102,7 +95,7 @@ TEST_F(ShaderLibrary, AnEmptyRecordCostsNoInstruction)
     fs::create_directories(copy);
     fs::copy(kShaders / "crossray", copy / "crossray", fs::copy_options::recursive);
     const fs::path hiz = copy / "crossray/project/hiz.glsl";
-    const std::string text = readText(hiz);
+    const std::string text = readSource(hiz);
     const std::string without = std::regex_replace(text, std::regex("\n +recordHizStep\\([^;]*\\);"), "\n");
     ASSERT_NE(text, without);
     std::ofstream(hiz) << without;
@@ -129,7 +122,7 @@ TEST_F(ShaderLibrary, KeepsToItsRules)
         {std::regex("#version|#extension"), "entry shaders set versions and extensions"},
     };
     for (const fs::path& file : libraryFiles()) {
-        const std::string text = readText(kShaders / file);
+        const std::string text = readSource(kShaders / file);
         EXPECT_TRUE(text.starts_with("// ")) << file << " opens with what it computes";
         if (file.parent_path().filename() != "shared") { // no algorithms there
             EXPECT_NE(text.find("\n// Hooks"), std::string::npos) << file << " names its hooks";
@@ -155,7 +148,7 @@ TEST_F(ShaderLibrary, IncludesNeverPointUp)
         return folder == "core" || folder == "shared" ? 0 : folder == "debug" ? 2 : 1;
     };
     for (const fs::path& file : libraryFiles()) {
-        const std::string text = readText(kShaders / file);
+        const std::string text = readSource(kShaders / file);
         const std::regex include("#include \"([^\"]*)\"");
         for (std::sregex_iterator it(text.begin(), text.end(), include), end; it != end; ++it) {
             const std::string target = (*it)[1];

@@ -2,6 +2,7 @@
 // it stands, and each pass becomes ESSL, HLSL and MSL.
 #include "harness/base/temporary_folder.h"
 #include "harness/compile/compile.h"
+#include "tests/shader/glsl/glsl_code.h"
 
 #include <gtest/gtest.h>
 
@@ -14,8 +15,6 @@ using namespace crossray;
 namespace fs = std::filesystem;
 
 namespace {
-
-const fs::path kShaders = fs::path(CROSSRAY_SOURCE_DIR) / "shaders";
 
 std::vector<fs::path> filesBelow(const fs::path& folder, const std::string& extension)
 {

@@ -4,6 +4,7 @@
 #include "harness/bench/tracer_yardstick.h"
 #include "harness/pass/pass.h"
 #include "harness/run/worker_pool.h"
+#include "tests/unit/bench/find_method.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -19,14 +20,6 @@ const std::filesystem::path kSource = CROSSRAY_SOURCE_DIR;
 Case readCase(const std::string& name)
 {
     return readCaseFile(kSource / "cases" / (name + ".toml")).at(0);
-}
-
-const BenchMethod& findMethod(const std::vector<BenchMethod>& methods, const std::string& name)
-{
-    const auto found =
-        std::find_if(methods.begin(), methods.end(), [&](const BenchMethod& method) { return method.name == name; });
-    if (found == methods.end()) throw std::runtime_error("no method " + name);
-    return *found;
 }
 
 // Reads a ray as the pass itself counts them on the CPU.

@@ -3,10 +3,10 @@
 
 #include "harness/bench/bench_report.h"
 #include "harness/scene/cubemap.h"
+#include "tests/unit/bench/find_method.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 
 using namespace crossray;
 
@@ -15,11 +15,6 @@ namespace {
 Case readBenchCase(const std::string& name)
 {
     return readCaseFile(std::string(CROSSRAY_SOURCE_DIR) + "/cases/bench/" + name + ".toml").at(0);
-}
-
-const BenchMethod& findMethod(const std::vector<BenchMethod>& methods, const std::string& name)
-{
-    return *std::find_if(methods.begin(), methods.end(), [&](const BenchMethod& m) { return m.name == name; });
 }
 
 // The cubemap that a method with a baked probe reads.

@@ -11,7 +11,7 @@ using namespace crossray;
 
 namespace {
 
-constexpr const char* kHead = "schema = 1\nname = \"a\"\nsummary = \"S.\"\n";
+constexpr const char* kHistoryHead = "schema = 1\nname = \"a\"\nsummary = \"S.\"\n";
 constexpr const char* kTail = "[scene]\nprimitives = [{ shape = \"sphere\", radius = 1 }]\n"
                               "[[expect]]\noutput = \"HitSuccess\"\nconstant = \"hit\"\n";
 
@@ -19,7 +19,7 @@ Case readText(const std::string& tables)
 {
     const TemporaryFolder folder("crossray-history");
     const std::filesystem::path file = folder.path() / "a.toml";
-    std::ofstream(file) << kHead << tables << kTail;
+    std::ofstream(file) << kHistoryHead << tables << kTail;
     return readCaseFile(file).at(0);
 }
 
@@ -65,7 +65,7 @@ TEST(CaseHistory, refusesWhatGivesNoFrame)
 TEST(CasePoison, isOfTheSceneAndOffWhereNothingIsSaid)
 {
     EXPECT_EQ(readText("").poison, GBufferPoison{});
-    const std::string file = std::string(kHead) +
+    const std::string file = std::string(kHistoryHead) +
                              "[scene]\npoison = \"huge\"\npoison_channel = \"normal\"\n"
                              "poison_every = 3\nprimitives = [{ shape = \"sphere\", radius = 1 }]\n"
                              "[[expect]]\noutput = \"HitSuccess\"\nconstant = \"hit\"\n";

@@ -1,6 +1,7 @@
 // docs/shader-library.md against the cases: a row for every setting of a shader, with cases that set it; a row for
 // every claim of the documents, with cases that bear its tag.
 #include "harness/case/case.h"
+#include "tests/unit/case/documents.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -18,7 +19,6 @@ using namespace crossray;
 
 namespace {
 
-const std::filesystem::path kSource = CROSSRAY_SOURCE_DIR;
 constexpr int kClaimCount = 20;
 
 // What a row of the document names: words in backticks, in the order of its cells.

@@ -1,23 +1,14 @@
 // docs/own-tracer.md against what it describes: the example, and the interface.
+#include "tests/unit/case/documents.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <regex>
 #include <string>
 
 namespace {
-
-const std::filesystem::path kSource = CROSSRAY_SOURCE_DIR;
-
-std::string readAll(const std::string& name)
-{
-    std::ifstream stream(kSource / name);
-    EXPECT_TRUE(stream) << name;
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 } // namespace
 

@@ -5,12 +5,13 @@ using namespace crossray;
 
 namespace {
 
-const std::string kSolid = "[probe.environment]\nsolid = [1, 0.5, 0.25]\n";
+const std::string kSolidProbe = "[probe.environment]\nsolid = [1, 0.5, 0.25]\n";
 
 // A box probe with those keys of [[probe]] and of its influence.
 std::string probeWith(const std::string& keys = "", const std::string& influence = "")
 {
-    return "[[probe]]\n" + keys + "[probe.influence]\nshape = \"box\"\nhalf_extents = [1, 2, 3]\n" + influence + kSolid;
+    return "[[probe]]\n" + keys + "[probe.influence]\nshape = \"box\"\nhalf_extents = [1, 2, 3]\n" + influence +
+           kSolidProbe;
 }
 
 } // namespace
@@ -82,8 +83,9 @@ TEST_F(Profile, whatOnlyHdrpHasIsRefused)
              {"rotation = [0, 1, 0]", "blend_positive = [1, 1, 1]", "blend_normal = 1", "face_negative = [1, 1, 1]"})
             EXPECT_EQ(reasonFor(caseOf(profile, probeWith("", key + "\n"))),
                       "\"" + key.substr(0, key.find(' ')) + "\"" + end);
-        EXPECT_EQ(reasonFor(caseOf(profile, "[[probe]]\n[probe.influence]\nshape = \"sphere\"\nradius = 1\n" + kSolid)),
-                  "\"shape\" is \"sphere\"; box is allowed where \"probe_profile\" is \"" + profile + "\"");
+        EXPECT_EQ(
+            reasonFor(caseOf(profile, "[[probe]]\n[probe.influence]\nshape = \"sphere\"\nradius = 1\n" + kSolidProbe)),
+            "\"shape\" is \"sphere\"; box is allowed where \"probe_profile\" is \"" + profile + "\"");
     }
 }
 

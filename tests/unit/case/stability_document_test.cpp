@@ -1,9 +1,10 @@
 // docs/stability.md, the atlas, against the cases, sweeps and pictures that it links.
+#include "tests/unit/case/documents.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <regex>
 #include <set>
@@ -13,15 +14,7 @@
 
 namespace {
 
-const std::filesystem::path kSource = CROSSRAY_SOURCE_DIR;
 constexpr int kSituations = 64;
-
-std::string readAll(const std::string& name)
-{
-    std::ifstream stream(kSource / name);
-    EXPECT_TRUE(stream) << name;
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 // Targets of links and pictures, as paths from docs/ without the anchor.
 std::vector<std::string> linksOf(const std::string& text)

@@ -26,7 +26,7 @@ class Capture {
     std::unique_ptr<FILE, int (*)(FILE*)> stream_;
 };
 
-CaseResult makeCase()
+CaseResult makeRunningCase()
 {
     CaseResult testCase;
     testCase.name = "a";
@@ -46,7 +46,7 @@ std::string show(ProgressOptions options)
     options.caseCount = 1;
     options.resultCount = 2;
     Progress progress(options);
-    const CaseResult testCase = makeCase();
+    const CaseResult testCase = makeRunningCase();
     progress.startBackend("osmesa", testCase);
     progress.tick();
     for (const BackendResult& result : testCase.backends)
@@ -84,7 +84,7 @@ TEST(Progress, theBarIsTakenOffBeforeAFailureIsPrinted)
 TEST(Progress, theBarFitsTheTerminal)
 {
     Progress progress({.mode = ProgressMode::kBar, .caseCount = 100, .resultCount = 600});
-    CaseResult testCase = makeCase();
+    CaseResult testCase = makeRunningCase();
     testCase.name = std::string(200, 'x');
     progress.startBackend("osmesa", testCase);
     for (int i = 0; i < 10; ++i)
@@ -97,7 +97,7 @@ TEST(Progress, aRepeatedErrorIsToldOnce)
 {
     Capture capture;
     Progress progress({.mode = ProgressMode::kNone, .text = capture.stream()});
-    CaseResult testCase = makeCase();
+    CaseResult testCase = makeRunningCase();
     testCase.backends[1].verdict = Verdict::kError;
     testCase.backends[1].reason = "hiz.glsl:3:1: error: no such thing";
     progress.finishBackend(testCase, testCase.backends[1]);

@@ -21,6 +21,13 @@ inline Plane row(int channels, std::vector<double> values)
     return plane;
 }
 
+inline Tolerance absolute(double bound)
+{
+    Tolerance tolerance;
+    tolerance.absolute = bound;
+    return tolerance;
+}
+
 inline uint64_t sumOf(const std::map<std::string, uint64_t>& census)
 {
     uint64_t sum = 0;

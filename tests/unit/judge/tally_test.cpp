@@ -15,13 +15,6 @@ using namespace crossray::test;
 
 namespace {
 
-Tolerance absolute(double bound)
-{
-    Tolerance tolerance;
-    tolerance.absolute = bound;
-    return tolerance;
-}
-
 constexpr OutputType kAllTypes[] = {OutputType::kDirection, OutputType::kDepth,  OutputType::kHitClass,
                                     OutputType::kColor,     OutputType::kScalar, OutputType::kCount};
 

@@ -19,13 +19,6 @@ Tolerance relative(double bound)
     return tolerance;
 }
 
-Tolerance absolute(double bound)
-{
-    Tolerance tolerance;
-    tolerance.absolute = bound;
-    return tolerance;
-}
-
 Tolerance ulps(double bound)
 {
     Tolerance tolerance;

@@ -1,8 +1,10 @@
-// The scene that the tests of this folder make their jobs of.
+// The scene that the tests of this folder make their jobs of, and how.
 #pragma once
 
 #include "harness/case/case.h"
+#include "harness/pass/pass.h"
 
+#include <filesystem>
 #include <initializer_list>
 
 namespace crossray {
@@ -24,6 +26,15 @@ inline Case makeFloorCase(std::initializer_list<const char*> outputs)
     for (const char* name : outputs)
         testCase.outputs.push_back(*findOutput(name));
     return testCase;
+}
+
+inline const std::filesystem::path kShaders = std::filesystem::path(CROSSRAY_SOURCE_DIR) / "shaders";
+
+inline Job makeJob(const Case& testCase, Precision precision)
+{
+    ShaderCompiler compiler({});
+    const CaseData data(testCase);
+    return buildJob(data, compiler, kShaders, precision);
 }
 
 } // namespace crossray

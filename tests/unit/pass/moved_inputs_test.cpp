@@ -14,15 +14,6 @@ using namespace crossray;
 
 namespace {
 
-const std::filesystem::path kShaders = std::filesystem::path(CROSSRAY_SOURCE_DIR) / "shaders";
-
-Job makeJob(const Case& testCase, Precision precision)
-{
-    ShaderCompiler compiler({});
-    const CaseData data(testCase);
-    return buildJob(data, compiler, kShaders, precision);
-}
-
 const ImageDesc& imageOf(const Job& job, uint32_t number)
 {
     for (const Binding& binding : job.dispatches.back().bindings) {

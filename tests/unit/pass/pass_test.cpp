@@ -8,19 +8,6 @@
 
 using namespace crossray;
 
-namespace {
-
-const std::filesystem::path kShaders = std::filesystem::path(CROSSRAY_SOURCE_DIR) / "shaders";
-
-Job makeJob(const Case& testCase, Precision precision)
-{
-    ShaderCompiler compiler({});
-    const CaseData data(testCase);
-    return buildJob(data, compiler, kShaders, precision);
-}
-
-} // namespace
-
 TEST(Pass, aRayAloneNeedsOneDispatchAndNoPyramid)
 {
     const Job job = makeJob(makeFloorCase({"RayDirWS"}), Precision::kFloat);

@@ -15,8 +15,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const fs::path kShaders = fs::path(CROSSRAY_SOURCE_DIR) / "shaders";
-
 // One cache for all jobs of the tests.
 ShaderCompiler& sharedCompiler()
 {

@@ -14,7 +14,7 @@ using namespace crossray;
 
 namespace {
 
-RunResult makeRun()
+RunResult makeFullRun()
 {
     RunResult run;
     run.version = "0.1.0";
@@ -54,7 +54,7 @@ RunResult makeRun()
 
 TEST(RunJson, readsBackWhatItWrote)
 {
-    const std::string text = formatRunJson(makeRun());
+    const std::string text = formatRunJson(makeFullRun());
     const RunResult run = parseRunJson(text, "run.json");
     EXPECT_EQ(formatRunJson(run), text);
     const Comparison& comparison = run.cases.at(0).backends.at(0).expectations.at(0).comparison;
@@ -70,7 +70,7 @@ TEST(RunJson, readsBackWhatItWrote)
 
 TEST(RunJson, refusesOtherSchemasAndBrokenText)
 {
-    const std::string text = formatRunJson(makeRun());
+    const std::string text = formatRunJson(makeFullRun());
     EXPECT_THROW(parseRunJson("", "a"), InputError);
     EXPECT_THROW(parseRunJson("[]", "a"), InputError);
     EXPECT_THROW(parseRunJson("{\"schema\": \"crossray-run/2\"}", "a"), InputError);
@@ -84,7 +84,7 @@ TEST(RunJson, refusesOtherSchemasAndBrokenText)
 
 TEST(RunJson, isValidJsonWhateverBytesADriverSays)
 {
-    RunResult run = makeRun();
+    RunResult run = makeFullRun();
     run.cases[0].backends[0].logLines = {"\xff\xfe broken UTF-8"};
     EXPECT_NO_THROW(parseRunJson(formatRunJson(run), "a"));
 }
@@ -101,7 +101,7 @@ TEST(RunJson, everyFieldIsDocumented)
 
 TEST(BareCase, isWhatAListOfCasesNeeds)
 {
-    RunResult run = makeRun();
+    RunResult run = makeFullRun();
     CaseResult& testCase = run.cases.at(0);
     testCase.name = "quoted \"name\" \\ with \u00e4 and \x01";
     testCase.conditioning.emplace().file = "planes/a/conditioning.exr";
@@ -126,7 +126,7 @@ TEST(BareCase, isWhatAListOfCasesNeeds)
 
 TEST(BareCase, whatIsNoJsonIsRefusedWhereverItBreaks)
 {
-    const std::string text = formatCaseJson(makeRun().cases.at(0));
+    const std::string text = formatCaseJson(makeFullRun().cases.at(0));
     EXPECT_NO_THROW(parseBareCase(text));
     for (size_t length = 0; length < text.size(); ++length)
         EXPECT_THROW(parseBareCase(text.substr(0, length)), InputError) << length;

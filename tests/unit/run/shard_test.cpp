@@ -11,9 +11,9 @@ using namespace crossray;
 
 namespace {
 
-using Environment = std::map<std::string, std::string>;
+using Variables = std::map<std::string, std::string>;
 
-ReadVariable readFrom(const Environment& environment)
+ReadVariable readFrom(const Variables& environment)
 {
     return [environment](const char* name) {
         const auto found = environment.find(name);
@@ -21,12 +21,12 @@ ReadVariable readFrom(const Environment& environment)
     };
 }
 
-std::string choose(const std::string& text, const Environment& environment)
+std::string choose(const std::string& text, const Variables& environment)
 {
     return chooseShard(text, readFrom(environment)).shard.format();
 }
 
-Environment slurmTask(int id, int first, int last, int step)
+Variables slurmTask(int id, int first, int last, int step)
 {
     return {{"SLURM_ARRAY_TASK_ID", std::to_string(id)},
             {"SLURM_ARRAY_TASK_MIN", std::to_string(first)},
@@ -143,7 +143,7 @@ TEST(ShardChoice, saysWhatItTookAndWhichFileToTouch)
 
 TEST(ShardChoice, refusesWhatNamesNoPartOrTwo)
 {
-    const std::vector<std::pair<std::string, Environment>> broken{
+    const std::vector<std::pair<std::string, Variables>> broken{
         {"auto", {}},
         {"gitlab", slurmTask(0, 0, 3, 1)},
         {"auto", {{"CI_NODE_INDEX", "5"}, {"CI_NODE_TOTAL", "4"}}},
@@ -161,12 +161,12 @@ TEST(ShardChoice, refusesWhatNamesNoPartOrTwo)
         EXPECT_THROW(choose(text, environment), InputError) << text;
 
     // Tasks 1, 3 and 7 know three numbers, and not that there is no task 5.
-    Environment holes = slurmTask(3, 1, 7, 1);
+    Variables holes = slurmTask(3, 1, 7, 1);
     holes["SLURM_ARRAY_TASK_COUNT"] = "3";
     EXPECT_THROW(choose("auto", holes), InputError);
 
     // GitLab's runner may itself be a task of an array.
-    Environment both = slurmTask(0, 0, 3, 1);
+    Variables both = slurmTask(0, 0, 3, 1);
     both["CI_NODE_INDEX"] = "2";
     both["CI_NODE_TOTAL"] = "4";
     EXPECT_THROW(choose("auto", both), InputError);

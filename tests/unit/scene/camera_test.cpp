@@ -2,6 +2,7 @@
 
 #include "harness/base/error.h"
 #include "harness/scene/random_scene.h"
+#include "tests/unit/scene/near.h"
 
 #include <gtest/gtest.h>
 
@@ -35,12 +36,6 @@ std::vector<Camera> allConventions()
                 cameras.push_back(camera);
             }
     return cameras;
-}
-
-void expectNear(const glm::dvec3& actual, const glm::dvec3& expected, double bound)
-{
-    EXPECT_LE(glm::length(actual - expected), bound) << actual.x << ", " << actual.y << ", " << actual.z << " for "
-                                                     << expected.x << ", " << expected.y << ", " << expected.z;
 }
 
 std::string messageOf(const Camera& camera)

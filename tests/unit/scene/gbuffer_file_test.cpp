@@ -7,6 +7,7 @@
 #include "harness/scene/file_io.h"
 #include "harness/scene/random_scene.h"
 #include "harness/scene/truth.h"
+#include "tests/unit/scene/all_channels.h"
 
 #include <gtest/gtest.h>
 
@@ -22,9 +23,6 @@ using namespace crossray;
 
 namespace {
 
-constexpr std::array<GBufferChannel, 6> kAll = {GBufferChannel::kDeviceDepth, GBufferChannel::kLinearDepth,
-                                                GBufferChannel::kNormalWS,    GBufferChannel::kPositionWS,
-                                                GBufferChannel::kColor,       GBufferChannel::kObjectIndex};
 constexpr std::array<GBufferChannel, 3> kDepths = {GBufferChannel::kDeviceDepth, GBufferChannel::kLinearDepth,
                                                    GBufferChannel::kPositionWS};
 
@@ -97,10 +95,10 @@ TEST_F(GBufferFile, OwnFilesComeBack)
         camera_.depthConvention = convention;
         Scene scene = makeRandomRoom(3);
         scene.primitives.erase(scene.primitives.begin() + 1); // some sky
-        const GBuffer written = renderGBuffer(scene, camera_, kAll);
+        const GBuffer written = renderGBuffer(scene, camera_, kAllChannels);
         writeGBuffer(file_, written);
-        const GBuffer back = readGBuffer(file_, camera_, crossrayChannelMap(), kAll);
-        for (const GBufferChannel channel : kAll) {
+        const GBuffer back = readGBuffer(file_, camera_, crossrayChannelMap(), kAllChannels);
+        for (const GBufferChannel channel : kAllChannels) {
             const Plane& a = written.plane(channel);
             const Plane& b = back.plane(channel);
             ASSERT_TRUE(a.sameShape(b));
@@ -118,7 +116,7 @@ TEST_F(GBufferFile, AnyOfTheThreeDepthsGivesTheOthers)
     for (const DepthConvention convention :
          {DepthConvention::kReversed, DepthConvention::kStandard, DepthConvention::kInfiniteReversed}) {
         camera_.depthConvention = convention;
-        const GBuffer full = renderGBuffer(scene, camera_, kAll);
+        const GBuffer full = renderGBuffer(scene, camera_, kAllChannels);
         for (const GBufferChannel only : kDepths) {
             GBuffer one{camera_, {{only, full.plane(only)}}};
             writeGBuffer(file_, one);
@@ -202,7 +200,7 @@ TEST_F(GBufferFile, TruthOfAnotherSizeOrWithoutItsChannels)
 {
     const Camera camera = readCameraJson(kData / "mirror_room/camera.json");
     const Scene scene = readSceneJson(kData / "mirror_room/camera.json");
-    const GBuffer gbuffer = readGBuffer(kData / "mirror_room/gbuffer.exr", camera, blenderChannelMap(), kAll);
+    const GBuffer gbuffer = readGBuffer(kData / "mirror_room/gbuffer.exr", camera, blenderChannelMap(), kAllChannels);
     const std::filesystem::path other = kData / "glass_sphere/truth.exr";
     const std::string size =
         messageOf(other, [&] { (void)readTruth(other, gbuffer, scene, TraceEffect::kReflection, 1); });

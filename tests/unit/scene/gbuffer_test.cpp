@@ -2,6 +2,7 @@
 
 #include "harness/base/error.h"
 #include "harness/scene/random_scene.h"
+#include "tests/unit/scene/all_channels.h"
 
 #include <gtest/gtest.h>
 
@@ -11,10 +12,6 @@
 using namespace crossray;
 
 namespace {
-
-constexpr std::array<GBufferChannel, 6> kAll = {GBufferChannel::kDeviceDepth, GBufferChannel::kLinearDepth,
-                                                GBufferChannel::kNormalWS,    GBufferChannel::kPositionWS,
-                                                GBufferChannel::kColor,       GBufferChannel::kObjectIndex};
 
 glm::dvec3 vectorAt(const Plane& plane, int x, int y)
 {
@@ -35,7 +32,7 @@ TEST(GBuffer, AWallThatFacesTheCameraHasOneDepth)
         camera.depthConvention = convention;
         camera.width = 33;
         camera.height = 17;
-        const GBuffer gbuffer = renderGBuffer(scene, camera, kAll);
+        const GBuffer gbuffer = renderGBuffer(scene, camera, kAllChannels);
         for (int y = 0; y < 17; ++y)
             for (int x = 0; x < 33; ++x) {
                 EXPECT_NEAR(gbuffer.plane(GBufferChannel::kLinearDepth).at(x, y), 4.0, 1e-14);
@@ -56,7 +53,7 @@ TEST(GBuffer, NoSurfaceIsClearedAndShowsTheSky)
     Scene scene;
     Camera camera;
     camera.depthConvention = DepthConvention::kStandard;
-    const GBuffer gbuffer = renderGBuffer(scene, camera, kAll);
+    const GBuffer gbuffer = renderGBuffer(scene, camera, kAllChannels);
     EXPECT_EQ(gbuffer.plane(GBufferChannel::kDeviceDepth).at(5, 5), 1.0);
     EXPECT_EQ(gbuffer.plane(GBufferChannel::kLinearDepth).at(5, 5), 0.0);
     EXPECT_EQ(gbuffer.plane(GBufferChannel::kObjectIndex).at(5, 5), 0.0);
@@ -75,7 +72,7 @@ TEST(GBuffer, CutsAtTheNearAndFarPlaneAndKeepsWhatLiesOnThem)
         Primitive wall;
         wall.center = {0, 0, -depth};
         scene.primitives = {wall};
-        const GBuffer gbuffer = renderGBuffer(scene, camera, kAll);
+        const GBuffer gbuffer = renderGBuffer(scene, camera, kAllChannels);
         const bool shown = depth >= 0.3 && depth <= 7.0;
         for (int y = 0; y < 64; ++y)
             for (int x = 0; x < 64; ++x) {
@@ -98,7 +95,7 @@ TEST(GBuffer, NormalsFaceTheViewer)
     Camera camera;
     for (const double z : {-1.0, 1.0}) {
         camera.worldFromView = makeLookAt({0, 0, 0}, {0, 0, z}, {0, 1, 0});
-        const GBuffer gbuffer = renderGBuffer(scene, camera, kAll);
+        const GBuffer gbuffer = renderGBuffer(scene, camera, kAllChannels);
         EXPECT_EQ(vectorAt(gbuffer.plane(GBufferChannel::kNormalWS), 32, 32), glm::dvec3(0, 0, -z));
         EXPECT_EQ(gbuffer.plane(GBufferChannel::kObjectIndex).at(32, 32), z > 0.0 ? 1.0 : 2.0);
     }
@@ -116,7 +113,7 @@ TEST(GBuffer, OrthographicSphere)
     camera.orthographicHeight = 4.0;
     camera.width = 80;
     camera.height = 40;
-    const GBuffer gbuffer = renderGBuffer(scene, camera, kAll);
+    const GBuffer gbuffer = renderGBuffer(scene, camera, kAllChannels);
     for (int y = 0; y < 40; ++y)
         for (int x = 0; x < 80; ++x) {
             const double u = (x + 0.5 - 40.0) * 0.1;

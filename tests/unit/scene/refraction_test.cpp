@@ -1,6 +1,7 @@
 #include "harness/scene/refraction.h"
 
 #include "harness/scene/random_scene.h"
+#include "tests/unit/scene/near.h"
 
 #include <gtest/gtest.h>
 
@@ -12,12 +13,6 @@ using namespace crossray;
 namespace {
 
 constexpr double kRadian = std::numbers::pi / 180.0;
-
-void expectNear(const glm::dvec3& actual, const glm::dvec3& expected, double bound)
-{
-    EXPECT_LE(glm::length(actual - expected), bound) << actual.x << ", " << actual.y << ", " << actual.z << " for "
-                                                     << expected.x << ", " << expected.y << ", " << expected.z;
-}
 
 // Comes down on the xy plane from +z at an angle to the normal.
 glm::dvec3 incoming(double angle)

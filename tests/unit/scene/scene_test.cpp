@@ -2,6 +2,7 @@
 
 #include "harness/base/error.h"
 #include "harness/scene/random_scene.h"
+#include "tests/unit/scene/near.h"
 
 #include <gtest/gtest.h>
 
@@ -45,12 +46,6 @@ glm::dvec3 drawPoint(RandomStream& random, double extent)
     const double y = random.next(-extent, extent);
     const double z = random.next(-extent, extent);
     return {x, y, z};
-}
-
-void expectNear(const glm::dvec3& actual, const glm::dvec3& expected, double bound)
-{
-    EXPECT_LE(glm::length(actual - expected), bound) << actual.x << ", " << actual.y << ", " << actual.z << " for "
-                                                     << expected.x << ", " << expected.y << ", " << expected.z;
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include "harness/base/error.h"
 #include "harness/scene/random_scene.h"
+#include "tests/unit/scene/near.h"
 
 #include <gtest/gtest.h>
 
@@ -43,12 +44,6 @@ int countOf(const Truth& truth, ScreenKnowledge knowledge)
     for (const TruthPixel& pixel : truth.pixels)
         count += pixel.screen == knowledge ? 1 : 0;
     return count;
-}
-
-void expectNear(const glm::dvec3& actual, const glm::dvec3& expected, double bound)
-{
-    EXPECT_LE(glm::length(actual - expected), bound) << actual.x << ", " << actual.y << ", " << actual.z << " for "
-                                                     << expected.x << ", " << expected.y << ", " << expected.z;
 }
 
 } // namespace
