@@ -26,6 +26,7 @@ add_custom_command(
   DEPENDS ${verdict_sources} ${CMAKE_SOURCE_DIR}/cmake/source_hash.cmake
   VERBATIM)
 target_sources(crossray_run PRIVATE ${CMAKE_BINARY_DIR}/source_hash.cpp)
+set_source_files_properties(${CMAKE_BINARY_DIR}/source_hash.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON) # new with each change
 crossray_module(bench USES run)
 crossray_module(inspect USES run PACKAGES nlohmann_json::nlohmann_json)
 # The pages of the report stand in harness/report/web and are strings in the program.
@@ -49,10 +50,17 @@ add_custom_command(
   VERBATIM)
 crossray_module(report USES run PACKAGES nlohmann_json::nlohmann_json ZLIB::ZLIB)
 target_sources(crossray_report PRIVATE ${web_source} ${atlas_source})
+set_source_files_properties(${web_source} ${atlas_source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 crossray_module(sweep USES inspect)
 crossray_module(inspector USES inspect report PACKAGES PkgConfig::httplib)
 crossray_module(mutate USES run PACKAGES nlohmann_json::nlohmann_json)
 crossray_module(cli USES bench inspect inspector report sweep mutate PACKAGES CLI11::CLI11 PNG::PNG)
+# Files that are compiled alone: GLM is another namespace there (backend/cpu/glsl_glm.h); families have the same functions;
+# another type of JSON; classes with members of the file's own types.
+file(GLOB bench_families CONFIGURE_DEPENDS harness/bench/family_*.cpp)
+set_source_files_properties(harness/pass/hdrp_key.cpp ${bench_families} harness/bench/tracer_yardstick.cpp
+                            harness/inspector/question.cpp harness/compile/compile.cpp harness/run/worker_pool.cpp
+                            PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 # CLI11 is a header of templates that the optimiser spends minutes on, for a command line that is parsed once.
 set_source_files_properties(harness/cli/command_line.cpp harness/cli/command_line_bench.cpp
                             harness/cli/command_line_mutate.cpp PROPERTIES COMPILE_OPTIONS "-O0"

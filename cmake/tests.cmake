@@ -12,11 +12,14 @@ function(crossray_test_program name)
   target_compile_definitions(${name} PRIVATE CROSSRAY_SOURCE_DIR="${source_dir}" CROSSRAY_BINARY_DIR=".")
   if(NOT arg_OWN_HEADERS)
     crossray_precompile(${name} test_base <gtest/gtest.h>)
+    crossray_unity_build(${name})
   endif()
   target_compile_options(${name} PRIVATE -O1) # the tests themselves need no speed; what they test has its own flags
   if(CROSSRAY_PRECOMPILE AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
     # Out of a precompiled header GCC 12 warns of std::string, which is silent where the header is read as a system's.
     target_compile_options(${name} PRIVATE -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
+    # And of fixtures in unnamed namespaces, where a test's file is not the compiler's first.
+    target_compile_options(${name} PRIVATE -Wno-subobject-linkage)
   endif()
   gtest_discover_tests(${name} TEST_PREFIX "${arg_PREFIX}" WORKING_DIRECTORY ${CMAKE_BINARY_DIR} DISCOVERY_TIMEOUT 60
                        PROPERTIES TIMEOUT 900)
